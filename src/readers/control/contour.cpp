@@ -307,13 +307,26 @@ Result<void> Contour::append_departure(const Path& path, Pieces& pieces) const {
     return {};
 }
 
-Result<void> Contour::run(Path& path) {
-    is_open_ = false;
+Result<Contour::Pieces> Contour::work_out(const Path& path) const {
     auto pieces = with_corners(path);
     if (pieces) pieces = offset(path, *pieces);
     if (pieces) pieces = approached(path, *std::move(pieces));
+    if (!pieces) return pieces;
+    if (auto done = append_departure(path, *pieces); !done) return std::unexpected(done.error());
+    return pieces;
+}
+
+Result<Vec3> Contour::begin(const Path& path) const {
+    const auto pieces = work_out(path);
     if (!pieces) return std::unexpected(pieces.error());
-    if (auto done = append_departure(path, *pieces); !done) return done;
+    const Point at = approach_ ? pieces->front().element.end : pieces->front().element.start;
+    return Vec3{at.u, at.v, start_.z};
+}
+
+Result<void> Contour::run(Path& path) {
+    is_open_ = false;
+    const auto pieces = work_out(path);
+    if (!pieces) return std::unexpected(pieces.error());
     const auto feed = path.feed_mm_per_min;
     const double spindle_rpm = path.spindle_rpm;
     const int tool = path.tool;

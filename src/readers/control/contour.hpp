@@ -61,6 +61,8 @@ class Contour {
     // Ends the contour with DEP. Returns the position after it.
     void depart(const ContourEndShape& shape, const ContourWords& words);
 
+    // Where the approach begins: the tool goes there first.
+    Result<Vec3> begin(const Path& path) const;
     // Moves the tool along the contour, and closes it.
     Result<void> run(Path& path);
 
@@ -76,6 +78,7 @@ class Contour {
     };
     using Pieces = std::vector<Piece>;
 
+    Result<Pieces> work_out(const Path& path) const;
     Result<Pieces> with_corners(const Path& path) const;
     Result<Pieces> offset(const Path& path, const Pieces& pieces) const;
     Result<void> join(const Path& path, const Piece& before, const Piece& next, Piece piece, Pieces& done,

@@ -27,6 +27,13 @@ double rings_of_pass(const Pocket& pocket) {
     return std::floor(std::min(pocket.half_width - outer, pocket.half_length - outer) / step + 1e-9) + 1;
 }
 
+// Rings of a slot beside the line in its middle.
+double rings_of_slot_pass(const Pocket& slot) {
+    const double most = slot.half_width - slot.radius - slot.allowance, step = step_of(slot);
+    if (!(most > kSameMm)) return 0;
+    return slot.along_edge || !(step > 0) ? 1 : std::max(1.0, std::ceil(most / step - 1e-9));
+}
+
 double rings_of_stud_pass(const Pocket& stud) {
     const double step = step_of(stud);
     const double left =
@@ -76,7 +83,7 @@ class Mill {
         return to(on_ring(0, -b), shape_.feed);
     }
 
-  private:
+    // Turns about a centre at the feed.
     Result<void> turn(Vec3 centre, double turn_rad, double z) {
         const double c = math::cos(turn_rad), s = math::sin(turn_rad);
         const double u = now_.x - centre.x, v = now_.y - centre.y;
@@ -87,6 +94,7 @@ class Mill {
         return to({centre.x + c * u - s * v, centre.y + s * u + c * v, z}, shape_.feed, arc);
     }
 
+  private:
     const Pocket& shape_;
     const PocketMove& go_;
     Vec3 now_;
@@ -101,6 +109,10 @@ double ring_count(const Pocket& pocket) {
 
 double stud_ring_count(const Pocket& stud) {
     return pass_count(stud) * rings_of_stud_pass(stud);
+}
+
+double ring_count(const CurvedSlot& slot) {
+    return pass_count(slot.pocket) * (1 + rings_of_slot_pass(slot.pocket));
 }
 
 // A slot as wide as the tool is a line there and back.
@@ -130,6 +142,59 @@ Result<void> mill_pocket(const Pocket& pocket, Vec3 from, const PocketMove& go) 
         if (auto done = mill.to(mill.at(-start, 0, z), pocket.feed); !done) return done;
     }
     return mill.to(mill.at(-start, 0, depths.back), {});
+}
+
+// The middle of the slot, there or back, and then rings about it: along one side, round an end, back along
+// the other side, round the start.
+Result<void> mill_slot(const CurvedSlot& slot, Vec3 from, const PocketMove& go) {
+    const Pocket& pocket = slot.pocket;
+    const PocketDepths& depths = pocket.depths;
+    const double passes = pass_count(pocket), rings = rings_of_slot_pass(pocket);
+    const double most = pocket.half_width - pocket.radius - pocket.allowance;
+    const double way = pocket.clockwise ? -1 : 1;  // a slot clockwise is one counter-clockwise in a mirror
+    const double first = pocket.clockwise ? pocket.angle_rad + slot.sweep_rad : pocket.angle_rad;
+    Mill mill(pocket, from, go);
+    const auto place = [&](double radius, double angle, double z) {
+        return Vec3{pocket.centre.x + radius * math::cos(angle), pocket.centre.y + radius * math::sin(angle),
+                    z};
+    };
+    const double start = first, end = first + way * slot.sweep_rad;
+    const Vec3 at_start = place(slot.arc_radius, start, 0), at_end = place(slot.arc_radius, end, 0);
+    if (auto done = mill.to({from.x, from.y, depths.back}, {}); !done) return done;
+    if (auto done = mill.to({at_start.x, at_start.y, depths.back}, {}); !done) return done;
+    if (auto done = mill.to({at_start.x, at_start.y, depths.near}, {}); !done) return done;
+    bool is_at_end = false;
+    for (double pass = 1; pass <= passes; ++pass) {
+        const double z = depths.top - (depths.top - depths.bottom) * pass / passes;
+        if (auto done = mill.to({mill.now().x, mill.now().y, z}, pocket.plunge); !done) return done;
+        if (auto done = mill.turn(pocket.centre, (is_at_end ? -way : way) * slot.sweep_rad, z); !done)
+            return done;
+        is_at_end = !is_at_end;
+        for (double ring = 1; ring <= rings; ++ring) {
+            const double out = most * ring / rings;
+            // From the end that the tool is at: the outer side first where the ring begins there.
+            if (is_at_end) {
+                if (auto done = mill.to(place(slot.arc_radius - out, end, z), pocket.feed); !done)
+                    return done;
+                if (auto done = mill.turn(pocket.centre, -way * slot.sweep_rad, z); !done) return done;
+                if (auto done = mill.turn(at_start, way * math::kPi, z); !done) return done;
+                if (auto done = mill.turn(pocket.centre, way * slot.sweep_rad, z); !done) return done;
+                if (auto done = mill.turn(at_end, way * math::kPi, z); !done) return done;
+            } else {
+                if (auto done = mill.to(place(slot.arc_radius + out, start, z), pocket.feed); !done)
+                    return done;
+                if (auto done = mill.turn(pocket.centre, way * slot.sweep_rad, z); !done) return done;
+                if (auto done = mill.turn(at_end, way * math::kPi, z); !done) return done;
+                if (auto done = mill.turn(pocket.centre, -way * slot.sweep_rad, z); !done) return done;
+                if (auto done = mill.turn(at_start, way * math::kPi, z); !done) return done;
+            }
+        }
+        const Vec3 middle = is_at_end ? at_end : at_start;
+        if (rings > 0) {
+            if (auto done = mill.to({middle.x, middle.y, z}, pocket.feed); !done) return done;
+        }
+    }
+    return mill.to({mill.now().x, mill.now().y, depths.back}, {});
 }
 
 // The tool goes down beside the blank, below its lower side.

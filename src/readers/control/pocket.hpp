@@ -32,12 +32,21 @@ struct Pocket {
 using PocketMove =
     std::function<Result<void>(Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc)>;
 
+// A slot along an arc about `centre`, its middle at `arc_radius`, from `angle_rad` on by `sweep_rad`, counted
+// to the centres of its round ends. Its half width is that of the pocket; length and corner are not used.
+struct CurvedSlot {
+    Pocket pocket;
+    double arc_radius = 0, sweep_rad = 0;
+};
+
 // Number of rings at all depths.
 double ring_count(const Pocket& pocket);
 double stud_ring_count(const Pocket& stud);
+double ring_count(const CurvedSlot& slot);
 
 // `from`: where the tool is.
 Result<void> mill_pocket(const Pocket& pocket, Vec3 from, const PocketMove& go);
 Result<void> mill_stud(const Pocket& stud, Vec3 from, const PocketMove& go);
+Result<void> mill_slot(const CurvedSlot& slot, Vec3 from, const PocketMove& go);
 
 }  // namespace tribo::readers::control

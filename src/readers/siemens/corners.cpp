@@ -45,8 +45,19 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
             return std::unexpected(good.error());
         if (size < 0) return path_.refuse(where, "a corner of negative size", "correct RND, CHF or CHR");
     }
+    const bool by_length = words.chamfer && !words.chamfer_leg;
+    const Vec3 normal = arc ? to_plane(arc->normal) : Vec3{0, 0, 1};
+    const bool lies_in_plane = std::abs(std::abs(normal.z) - 1) <= 1e-12;
+    if (captured_ && lies_in_plane) {
+        if (!is_flat && !captured_->empty()) return true;
+        captured_->push_back({to_in_plane, arc, 0, rounding == 0, by_length});
+        if (has_corner) captured_->back().corner_mm = rounding > 0 ? rounding : chamfer;
+        if (arc) captured_->back().arc->centre_mm = to_plane(arc->centre_mm);
+        if (arc) captured_->back().arc->normal = normal;
+        return true;
+    }
     const bool was_open = contour_.is_open();
-    if (!was_open && (side_ == 0 ? !has_corner : !is_flat)) return false;
+    if (!captured_ && !was_open && (side_ == 0 ? !has_corner : !is_flat)) return false;
     if (was_open && !is_flat) {
         contour_.drop_corner();  // the control leaves it out
         if (side_ == 0) {
@@ -63,8 +74,7 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
         if (auto done = close_contour(); !done) return std::unexpected(done.error());
         return false;
     }
-    const Vec3 normal = arc ? to_plane(arc->normal) : Vec3{0, 0, 1};
-    if (std::abs(std::abs(normal.z) - 1) > 1e-12) {
+    if (!lies_in_plane) {
         return path_.refuse(where, "a circle outside of the plane within a contour is not read",
                             "write it with G40, and without RND and CHF");
     }
@@ -94,7 +104,6 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
     }
     contour_.add(to_in_plane, flat, contour_words(rapid));
     if (has_corner) {
-        const bool by_length = words.chamfer && !words.chamfer_leg;
         contour_.corner(rounding > 0 ? rounding : chamfer, rounding == 0, contour_words(false), by_length);
     } else if (side_ == 0) {
         if (auto done = close_contour(); !done) return std::unexpected(done.error());

@@ -20,7 +20,6 @@ constexpr std::string_view kPlain = "let the CAM system write the path with G0 t
 // Names of cycles that are not read, by their beginnings.
 constexpr Refused kRefused[] = {
     {"CYCLE60", "engraving, of letters that the control has", kPlain},
-    {"CYCLE62", "a contour that the control mills by itself", kPlain},
     {"CYCLE63", "a contour that the control mills by itself", kPlain},
     {"CYCLE64", "a contour that the control mills by itself", kPlain},
     {"CYCLE93", "a cycle of a lathe", "only milling is read"},
@@ -47,6 +46,12 @@ Result<bool> Interpreter::run_cycle(const Call& call) {
         if (!ready) return std::unexpected(ready.error());
         return *ready ? ran(drill(call)) : Result<bool>(true);
     }
+    if (name == "CYCLE62") return ran(choose_contour(call));
+    if (captured_ && (is_milling_cycle(name) || name == "CYCLE72")) {
+        return path_.refuse({call.line, call.column}, name + " within a contour",
+                            "write it behind the contour");
+    }
+    if (name == "CYCLE72") return ran(mill_contour(call));
     if (is_milling_cycle(name)) return ran(run_milling_cycle(call));
     if (name == "HOLES1" || name == "HOLES2" || name == "CYCLE801" || name == "CYCLE802") {
         return ran(run_pattern(call));

@@ -9,8 +9,6 @@
 namespace tribo::readers::siemens {
 namespace {
 
-constexpr int kDeepest = 24;  // of repeats within each other
-
 bool is_loop(std::string_view word) {
     return word == "WHILE" || word == "FOR" || word == "LOOP" || word == "REPEAT";
 }
@@ -272,7 +270,7 @@ Result<void> Interpreter::repeat(Cursor& in, bool one_block) {
         return in.refuse(at, "the lines to repeat are not in this program",
                          "write a label before them, and one or ENDLABEL: at their end");
     }
-    if (depth_ >= kDeepest) return in.refuse(at, "repeats are nested too deeply", "correct the labels");
+    if (depth_ >= kDeepestCall) return in.refuse(at, "repeats are nested too deeply", "correct the labels");
     for (long left = static_cast<long>(std::clamp(times, 0.0, 1e9)); left > 0; --left) {
         ++depth_;
         const auto done = run_lines(*begin, *end);

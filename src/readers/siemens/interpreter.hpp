@@ -53,6 +53,9 @@ enum Note {
     kTipControl,
 };
 
+inline constexpr int kDeepestCall = 24;          // of calls and repeats within each other
+inline constexpr std::size_t kNoParameter = 99;  // a cycle has none of it
+
 // A BSPLINE: its control points so far.
 struct Spline {
     std::vector<motion::HomogeneousPoint> control;
@@ -100,6 +103,7 @@ class Interpreter : private SystemValues {
     };
     Result<void> take_parameters(const Unit& unit, const Call& call, std::vector<Returned>& returned);
     Result<void> leave_out_program(const Call& call);
+    static std::string program_name(const std::string& text);
     Result<void> call_by_text(const std::string& word, Cursor& in);
     Result<void> assign(const std::string& name, std::size_t at, Cursor& in);
     Result<void> assign_system(Cursor& in);
@@ -184,7 +188,7 @@ class Interpreter : private SystemValues {
     }
     Vec3 from_frame(Vec3 p) const { return {p.x / scale_.x, p.y / scale_.y, p.z / scale_.z}; }
 
-    // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp)
+    // Cycles (cycles.cpp, drilling.cpp, pockets.cpp)
     Result<bool> run_cycle(const Call& call);
     Result<void> set_modal(Cursor& in);
     Result<void> run_modal();
@@ -201,9 +205,45 @@ class Interpreter : private SystemValues {
     Result<void> run_milling_cycle(const Call& call);
     Result<void> mill_pocket(const Pocket& pocket, Place where);
     Result<void> mill_face(const Call& call);
-    Result<void> mill_thread(const Call& call);
+    Result<void> mill_curved_slots(const Call& call, const Pocket& pocket, Vec3 centre, double count);
     Result<void> mill_to(Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc);
     Result<void> mill_round(Vec3 centre, double turn_rad, double z, double feed);
+
+    // Threads (threads.cpp): a helix between two half circles
+    struct Helix {
+        Vec3 centre;
+        double radius = 0, lead = 0, turns = 0, from_z = 0, to_z = 0, feed = 0;
+        double way = 1;  // -1: clockwise
+        bool is_outside = false;
+    };
+    Vec3 centre_of(const Call& call, std::size_t at_u, std::size_t at_v) const;
+    Result<void> mill_thread(const Call& call);
+    Result<void> mill_thread_of_plate(const Call& call);
+    Result<void> mill_helix(const Helix& helix);
+
+    // Contours that cycles follow (contours.cpp)
+    struct ContourName {  // a program, or two labels of it or of the running program
+        std::string program, begin, end;
+    };
+    struct ContourStep {  // to a point, with the corner behind it; coordinates of the plane
+        Vec3 to;
+        std::optional<motion::Arc> arc;
+        double corner_mm = 0;
+        bool is_chamfer = false, is_own_length = false;
+    };
+    struct ContourPass {
+        std::vector<ContourStep> steps;
+        int side = 0, begin_kind = 1, end_kind = 1;
+        double radius = 0, begin_size = 0, end_size = 0, z = 0, feed = 0, plunge = 0;
+        std::optional<double> between;  // feed above the work; none: rapids
+    };
+    Result<void> choose_contour(const Call& call);
+    ContourName contour_named(const std::string& text) const;
+    Result<bool> capture_contour(const ContourName& name, const Call& call);
+    Result<void> run_between(const std::string& first, const std::string& last, const Unit& unit,
+                             Place where);
+    Result<void> mill_contour(const Call& named);
+    Result<void> run_contour_pass(const ContourPass& pass, const Depths& depths);
 
     Place place(int column) const { return {static_cast<int>(at_) + 1, column}; }
     int line_number() const { return static_cast<int>(at_) + 1; }
@@ -211,6 +251,7 @@ class Interpreter : private SystemValues {
     // last point.
     Vec3 here() const {
         if (spline_) return spline_->control.back().xyz;
+        if (captured_ && !captured_->empty()) return from_plane(captured_->back().to);
         return contour_.programmed() ? from_plane(*contour_.programmed()) : path_.tip();
     }
     std::array<int, 3> axes() const { return gcode::axes_of(plane_); }
@@ -271,6 +312,9 @@ class Interpreter : private SystemValues {
     bool euler_ = true, euler_stated_ = false;  // A2 B2 C2 are Euler angles, not roll, pitch and yaw
     bool is_spatial_ = false;                   // CUT3DC and the like: compensation in space
 
+    ContourName chosen_contour_;  // CYCLE62
+    // The contour that is being read; its blocks do not move the tool.
+    std::optional<std::vector<ContourStep>> captured_;
     std::optional<Call> modal_;  // MCALL
     int old_cycle_ = 0;          // G81 or G82
     bool runs_modal_ = false;

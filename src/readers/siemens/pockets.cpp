@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Milling cycles: POCKET1 to POCKET4, SLOT1, LONGHOLE, CYCLE61, CYCLE71, CYCLE76, CYCLE77 and CYCLE90. Where
+// Milling cycles: POCKET1 to POCKET4, SLOT1, SLOT2, LONGHOLE, CYCLE61, CYCLE71, CYCLE76 and CYCLE77. Where
 // the manual leaves the way of the tool to the control, rings and lines are taken, with a warning.
 #include <algorithm>
 #include <cmath>
@@ -14,8 +14,8 @@ constexpr double kMostPasses = 10'000;
 constexpr double kSameMm = 1e-6;
 constexpr double kUsualStep = 0.8;  // of the tool's diameter, from ring to ring
 
-// The places of the parameters of a pocket or slot; kNone: it has none of it.
-constexpr std::size_t kNone = 99;
+// The places of the parameters of a pocket or slot.
+constexpr std::size_t kNone = kNoParameter;
 struct Layout {
     std::string_view name;
     std::size_t increment, count, length, width, radius, centre_u, centre_v, from_centre, angle, step_angle,
@@ -28,6 +28,8 @@ constexpr Layout kLayouts[] = {
     {"POCKET3", kNone, kNone, 4, 5, 6, 7, 8, kNone, 9, kNone, 10, 11, 12, 13, 14, 15, 16, 17, 28},
     {"POCKET4", kNone, kNone, kNone, kNone, 4, 5, 6, kNone, kNone, kNone, 7, 8, 9, 10, 11, 12, 13, 14, 24},
     {"SLOT1", 4, 5, 6, 7, kNone, 8, 9, 10, 11, 12, 15, 17, kNone, 14, 13, 16, 18, kNone, kNone},
+    // AFSL, the angle of the slot, stands where SLOT1 has its length.
+    {"SLOT2", 4, 5, kNone, 7, kNone, 8, 9, kNone, 11, 12, 15, 17, kNone, 14, 13, 16, 18, kNone, kNone},
     {"LONGHOLE", 4,  5,     6,     kNone, kNone, 7,     8,     9,     10,
      11,         14, kNone, kNone, 13,    12,    kNone, kNone, kNone, kNone},
     // Studs; the sizes of the blank follow VARI.
@@ -38,7 +40,7 @@ constexpr Layout kLayouts[] = {
 }  // namespace
 
 bool Interpreter::is_milling_cycle(const std::string& name) {
-    return name == "CYCLE90" || name == "CYCLE71" || name == "CYCLE61" ||
+    return name == "CYCLE90" || name == "CYCLE70" || name == "CYCLE71" || name == "CYCLE61" ||
            std::any_of(std::begin(kLayouts), std::end(kLayouts),
                        [&](const Layout& known) { return known.name == name; });
 }
@@ -125,6 +127,7 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     }
     check_start(false);
     if (call.name == "CYCLE90") return mill_thread(call);
+    if (call.name == "CYCLE70") return mill_thread_of_plate(call);
     if (path_.first(kPocket)) {
         path_.warn(line_number(),
                    "the way of the tool within " + call.name +
@@ -150,7 +153,8 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     pocket.along_edge = static_cast<int>(std::clamp(call.at(at.kind), 0.0, 1e6)) % 10 == 2;
     if (pocket.along_edge) pocket.allowance = 0;
     const int direction = static_cast<int>(std::clamp(call.at(at.direction), 0.0, 9.0));
-    pocket.clockwise = direction == 2 || (direction == 1 && at.width != kNone && call.name != "SLOT1");
+    pocket.clockwise =
+        direction == 2 || (direction == 1 && at.width != kNone && !call.name.starts_with("SLOT"));
     const auto feed = cycle_feed(call, at.feed), plunge = cycle_feed(call, at.plunge);
     if (!feed) return std::unexpected(feed.error());
     if (!plunge) return std::unexpected(plunge.error());
@@ -177,7 +181,7 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
                                                          : pocket.blank_half_length;
         pocket.clockwise = direction == 2 || direction == 0;
     }
-    if (pocket.half_length < pocket.half_width && at.radius == kNone) {
+    if (at.length != kNone && pocket.half_length < pocket.half_width && at.radius == kNone) {
         return path_.refuse(where, call.name + ": the slot is shorter than wide", "correct LENG or WID");
     }
     const double most = pocket.half_width - pocket.radius - pocket.allowance;
@@ -185,14 +189,12 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     if (!fits || !(pocket.half_length > 0) || !(pocket.half_width > 0)) {
         return path_.refuse(where, call.name + ": the tool does not fit into it", "take a smaller tool");
     }
-    Vec3 centre = path_.tip();
-    if (call.has(at.centre_u)) centre[u] = scale_[u] * call.at(at.centre_u) * unit_mm_;
-    if (call.has(at.centre_v)) centre[v] = scale_[v] * call.at(at.centre_v) * unit_mm_;
-    centre = to_plane(centre);
+    const Vec3 centre = centre_of(call, at.centre_u, at.centre_v);
     const double count = at.count == kNone ? 1 : std::floor(call.at(at.count));
     if (!(count >= 1 && count <= kMostPasses)) {
         return path_.refuse(where, call.name + " has no number of slots from 1 to 10000", "correct NUM");
     }
+    if (call.name == "SLOT2") return mill_curved_slots(call, pocket, centre, count);
     const double step_angle = call.at(at.step_angle) != 0 ? call.at(at.step_angle) : 360 / count;
     for (const double deg : {call.at(at.angle), step_angle * count}) {
         if (auto good = path_.in_range(kLimits.rotary_angle, deg, where); !good) return good;
@@ -202,6 +204,36 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
         const double out = at.from_centre == kNone ? 0 : size(at.from_centre) + pocket.half_length;
         pocket.centre = centre + out * Vec3{math::cos(pocket.angle_rad), math::sin(pocket.angle_rad), 0};
         if (auto done = mill_pocket(pocket, where); !done) return done;
+    }
+    return {};
+}
+
+// SLOT2(RTP, RFP, SDIS, DP, DPR, NUM, AFSL, WID, CPA, CPO, RAD, STA1, INDA, FFD, FFP1, MID, CDIR, FAL, VARI):
+// slots on a circle. AFSL counts to the centres of their round ends.
+Result<void> Interpreter::mill_curved_slots(const Call& call, const Pocket& pocket, Vec3 centre,
+                                            double count) {
+    const Place where{call.line, call.column};
+    control::CurvedSlot slot;
+    slot.pocket = pocket;
+    slot.pocket.centre = centre;
+    slot.arc_radius = std::abs(call.at(10)) * std::abs(scale_[axes()[0]]) * unit_mm_;
+    slot.sweep_rad = std::abs(call.at(6)) * math::kRadPerDeg;
+    const double step_deg = call.at(12) != 0 ? call.at(12) : 360 / count;
+    if (!(slot.arc_radius > pocket.half_width) || !(slot.sweep_rad > 0) ||
+        !(slot.sweep_rad <= math::kTwoPi)) {
+        return path_.refuse(where, "SLOT2: the slot is no arc", "correct AFSL, RAD or WID");
+    }
+    for (const double deg : {call.at(11), step_deg * count}) {
+        if (auto good = path_.in_range(kLimits.rotary_angle, deg, where); !good) return good;
+    }
+    if (control::ring_count(slot) > kMostPasses)
+        return path_.refuse(where, "SLOT2 needs more than 10000 rings", "take a larger infeed");
+    const auto go_to = [&](Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc) {
+        return mill_to(to, feed, arc);
+    };
+    for (double i = 0; i < count; ++i) {
+        slot.pocket.angle_rad = (call.at(11) + i * step_deg) * math::kRadPerDeg;
+        if (auto done = control::mill_slot(slot, to_plane(path_.tip()), go_to); !done) return done;
     }
     return {};
 }
@@ -276,54 +308,6 @@ Result<void> Interpreter::mill_face(const Call& call) {
         if (auto done = mill_to({end.x, end.y, depths->back}, {}, {}); !done) return done;
     }
     return {};
-}
-
-// CYCLE90(RTP, RFP, SDIS, DP, DPR, DIATH, KDIAM, PIT, FFR, CDIR, TYPTH, CPA, CPO): a thread, milled from
-// RFP + SDIS down, between two half circles.
-Result<void> Interpreter::mill_thread(const Call& call) {
-    const Place where{call.line, call.column};
-    const auto depths = depths_of(call, 4, kNone);
-    if (!depths) return std::unexpected(depths.error());
-    const auto feed = cycle_feed(call, 8);
-    if (!feed) return std::unexpected(feed.error());
-    const auto tool = cutter_radius(where, "CYCLE90");
-    if (!tool) return std::unexpected(tool.error());
-    const auto [u, v, w] = axes();
-    const double scale = std::abs(scale_[u]) * unit_mm_;
-    const bool is_outside = call.at(10) == 1;
-    const double radius =
-        is_outside ? std::abs(call.at(6)) * scale / 2 + *tool : std::abs(call.at(5)) * scale / 2 - *tool;
-    const double pitch = std::abs(call.at(7)) * scale;
-    const double turns = (depths->near - depths->bottom) / pitch;
-    if (!(radius > kSameMm) || !(pitch > 0) || !(turns <= kMostPasses)) {
-        return path_.refuse(where, "CYCLE90: the tool does not fit, or the pitch is none",
-                            "correct DIATH, KDIAM and PIT, or take a smaller tool");
-    }
-    const double way = call.at(9) == 3 ? 1 : -1;
-    Vec3 centre = path_.tip();
-    if (call.has(11)) centre[u] = scale_[u] * call.at(11) * unit_mm_;
-    if (call.has(12)) centre[v] = scale_[v] * call.at(12) * unit_mm_;
-    centre = to_plane(centre);
-    // A half circle leads from the centre to the thread, outside from beyond the tool.
-    const double lead = is_outside ? -std::max(*tool, radius / 2) : radius / 2;
-    const Vec3 begin{centre.x + radius - 2 * lead, centre.y, 0};
-    const Vec3 lead_centre{centre.x + radius - lead, centre.y, 0};
-    const Vec3 now = to_plane(path_.tip());
-    if (auto done = mill_to({now.x, now.y, depths->back}, {}, {}); !done) return done;
-    if (auto done = mill_to({begin.x, begin.y, depths->back}, {}, {}); !done) return done;
-    if (auto done = mill_to({begin.x, begin.y, depths->near}, {}, {}); !done) return done;
-    if (auto done = mill_round(lead_centre, (is_outside ? -way : way) * math::kPi, depths->near, *feed);
-        !done)
-        return done;
-    if (auto done = mill_round(centre, way * turns * math::kTwoPi, depths->bottom, *feed); !done) return done;
-    const Vec3 out = to_plane(path_.tip());
-    const Vec3 out_centre{centre.x + (out.x - centre.x) * (radius - lead) / radius,
-                          centre.y + (out.y - centre.y) * (radius - lead) / radius, 0};
-    if (auto done = mill_round(out_centre, (is_outside ? -way : way) * math::kPi, depths->bottom, *feed);
-        !done)
-        return done;
-    const Vec3 end = to_plane(path_.tip());
-    return mill_to({end.x, end.y, depths->back}, {}, {});
 }
 
 }  // namespace tribo::readers::siemens

@@ -9,7 +9,6 @@
 namespace tribo::readers::siemens {
 namespace {
 
-constexpr int kDeepest = 24;  // of calls within each other
 constexpr double kLargestArray = 100'000;
 
 // The type of a name of a type.
@@ -186,6 +185,17 @@ Result<Call> Interpreter::call_at(Cursor& in, const std::string& name, std::size
     }
 }
 
+// The name in upper case, without folder and ending.
+std::string Interpreter::program_name(const std::string& text) {
+    std::string name;
+    for (const char c : text.substr(text.find_last_of("/\\:") + 1)) name += to_upper(c);
+    if (name.starts_with("_N_")) name.erase(0, 3);
+    for (const std::string_view ending : {".MPF", ".SPF", "_MPF", "_SPF"}) {
+        if (name.ends_with(ending)) name.erase(name.size() - ending.size());
+    }
+    return name;
+}
+
 // CALL "NAME", PCALL NAME(..), EXTCALL "DIRECTORY/NAME.MPF"
 Result<void> Interpreter::call_by_text(const std::string& word, Cursor& in) {
     in.skip_blanks();
@@ -207,14 +217,8 @@ Result<void> Interpreter::call_by_text(const std::string& word, Cursor& in) {
         if (!found) return std::unexpected(found.error());
         call = *std::move(found);
     }
-    name.clear();
-    for (const char c : call.name.substr(call.name.find_last_of("/\\:") + 1)) name += to_upper(c);
-    if (name.starts_with("_N_")) name.erase(0, 3);
-    for (const std::string_view ending : {".MPF", ".SPF", "_MPF", "_SPF"}) {
-        if (name.ends_with(ending)) name.erase(name.size() - ending.size());
-    }
-    call.name = name;
-    if (name.empty()) return in.refuse(at, word + " without the name of a program", "write it");
+    call.name = program_name(call.name);
+    if (call.name.empty()) return in.refuse(at, word + " without the name of a program", "write it");
     return run_call(call);
 }
 
@@ -232,7 +236,7 @@ Result<void> Interpreter::run_call(const Call& call) {
 
 // Runs a program of this file, and returns.
 Result<void> Interpreter::run_unit(const Unit& unit, const Call& call) {
-    if (depth_ >= kDeepest) {
+    if (depth_ >= kDeepestCall) {
         return path_.refuse({call.line, call.column}, "programs call each other too deeply",
                             "correct the calls");
     }

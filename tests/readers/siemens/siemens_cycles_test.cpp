@@ -3,6 +3,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "readers/refusals.hpp"
 #include "readers/siemens/siemens_text.hpp"
 
 namespace tribo::readers {
@@ -152,6 +153,138 @@ TEST(SiemensCycles, MillsThreadsAndFaces) {
     // Four lines of 100 mm and the tool on both sides, 10 mm apart.
     const motion::Program face = milled("CYCLE61(5,2,1,0,0,0,100,40,2,10,0,500,31)\n");
     EXPECT_NEAR(feed_mm(face), 4 * 110 + 3 * 10, 1e-9);
+}
+
+TEST(SiemensCycles, SlotsOnACircleStayWithinTheirWalls) {
+    // Two slots as wide as the tool, a quarter of a circle of 20 mm each.
+    const motion::Program narrow = milled("SLOT2(5,0,1,-2,,2,90,10,100,50,20,10,180,100,300,0,3,0,0)\n");
+    EXPECT_NEAR(arc_mm(narrow), 2 * 20 * kPi / 2, 1e-9);
+    for (const int direction : {2, 3}) {
+        // 14 wide: one ring 2 mm beside the middle, at each of two depths.
+        const motion::Program wide = milled("SLOT2(5,0,1,-2,,2,90,14,100,50,20,10,180,100,300,1," +
+                                            std::to_string(direction) + ",0,0)\n");
+        const double ring = (22 + 18) * kPi / 2 + 2 * kPi * 2;
+        EXPECT_NEAR(arc_mm(wide), 2 * 2 * (20 * kPi / 2 + ring), 1e-9);
+        Box3 box;
+        for (const motion::Move& move : wide.moves) {
+            if (move.kind != motion::MoveKind::feed || move.end.tip_mm.z > 0) continue;
+            for (const double t : {0.2, 0.5, 0.8}) {
+                const Vec3 p = pose_at(move, t).tip_mm;
+                const double r = math::hypot(p.x - 100, p.y - 50);
+                EXPECT_LE(r, 22 + 1e-9);
+                EXPECT_GE(r, 18 - 1e-9);
+            }
+            box.include(motion::tip_bounds(move));
+        }
+        // The first slot ends at 100 degrees, where its round end of 2 mm reaches farthest to the left above.
+        EXPECT_NEAR(box.max.y, 50 + 22, 1e-9);
+        EXPECT_NEAR(box.min.y, 50 - 22, 1e-9);
+    }
+}
+
+// Outside of a square of 50 mm, climbing, with a tool of 10 mm: a quarter circle of 3 mm to it, four sides,
+// three round corners, a line of 4 mm from it; twice, with the ways down from Z1.
+TEST(SiemensCycles, FollowsContours) {
+    const std::string contour = "G1 X0 Y0\nY50\nX50\nY0\nX0\n";
+    const std::string cycle = ",5,0,1,-4,2,0.5,0,300,100,";
+    const struct {
+        std::string text;
+        double radius;
+    } cases[] = {
+        {"CYCLE72(\"SQUARE\"" + cycle + "2,41,2,3,,1,4)\nM30\n%_N_SQUARE_SPF\n" + contour + "M17\n", 5},
+        {"CYCLE62(\"SQUARE\",0)\nCYCLE72(\"\"" + cycle + "1,41,2,3,,1,4)\nM30\n%_N_SQUARE_SPF\n" + contour +
+             "M17\n",
+         5.5},
+        {"CYCLE72(\"A:B\"" + cycle + "2,41,2,3,,1,4)\nM30\nA:\n" + contour + "B:\n", 5},
+        {"CYCLE62(,2,\"A\",\"B\")\nCYCLE72(\"\"" + cycle + "2,41,2,3,,1,4)\nM30\nA:\n" + contour + "B:\n", 5},
+        {"CYCLE62(\"SQUARE\",1)\nCYCLE72(\"\"" + cycle + "2,41,2,3,,1,4)\nM30\nE_LAB_A_SQUARE: ;#SM Z:2\n" +
+             contour + "E_LAB_E_SQUARE:\n",
+         5},
+    };
+    for (const auto& one : cases) {
+        const motion::Program program = milled(one.text);
+        const double around = 4 * 50 + 3 * one.radius * kPi / 2;
+        EXPECT_NEAR(feed_mm(program), 2 * (around + 1.5 * kPi + 4) + 3 + 5, 1e-9) << one.text;
+        expect_near(end_of(program), {-4, -one.radius, 5}, 1e-9);
+        for (const motion::Move& move : program.moves) {
+            if (move.kind != motion::MoveKind::feed) continue;
+            const bool is_inside = move.end.tip_mm.x > 1e-9 && move.end.tip_mm.x < 50 - 1e-9 &&
+                                   move.end.tip_mm.y > 1e-9 && move.end.tip_mm.y < 50 - 1e-9;
+            EXPECT_FALSE(is_inside);
+        }
+    }
+    // The same contour with its own corners, by blocks with G41 and by the cycle without ways to it.
+    const std::string round = "Y50 RND=6\nX50 CHR=2\nY0\n";
+    const motion::Program cycled = milled(
+        "CYCLE72(\"R\",5,0,1,-4,0,0,0,300,100,2,41,1,7,,1,4)\nM30\n%_N_R_SPF\nG1 X0 Y0\n" + round + "M17\n");
+    const motion::Program plain = milled("G0 X-5 Y-7 Z-4\nG1 G41 X0 Y0\n" + round + "G40\n");
+    const auto outline = [](const motion::Program& program) {
+        double sum = 0;
+        for (const motion::Move& move : program.moves) {
+            if (move.kind == motion::MoveKind::feed && move.start.tip_mm.z == -4 && move.end.tip_mm.z == -4)
+                sum += motion::path_length_mm(move);
+        }
+        return sum;
+    };
+    EXPECT_NEAR(outline(cycled) - 4, outline(plain), 1e-9);  // both come along a line of 7 mm
+}
+
+TEST(SiemensCycles, MillsThreadsWithOneTooth) {
+    for (const char* kind : {"2", "22", "112", "122"}) {
+        const motion::Program thread =
+            milled("CYCLE70(5,0,1,-6,26,1.3,0,2,1,0,500,0,50,60,0," + std::string(kind) + ")\n");
+        double helix = 0, rise = 0, turn = 0;
+        for (const motion::Move& move : thread.moves) {
+            if (!move.arc || move.end.tip_mm.z == move.start.tip_mm.z) continue;
+            helix += motion::path_length_mm(move);
+            rise = move.end.tip_mm.z - move.start.tip_mm.z;
+            turn = move.arc->normal.z;
+        }
+        EXPECT_NEAR(helix, 3 * std::hypot(2 * kPi * 8, 2), 1e-9);
+        // A right-hand helix turns to the left on its way up.
+        EXPECT_EQ(rise * turn > 0, kind[0] != '1') << kind;
+    }
+    // Roughing in three cuts of 0.4 mm to 0.1 mm, at radii of 7.1, 7.5 and 7.9.
+    const motion::Program rough = milled("CYCLE70(5,0,1,-6,26,1.3,0.1,2,1,0.4,500,0,50,60,0,1)\n");
+    double helix = 0;
+    for (const motion::Move& move : rough.moves) {
+        if (move.arc && move.end.tip_mm.z != move.start.tip_mm.z) helix += motion::path_length_mm(move);
+    }
+    double expected = 0;
+    for (const double r : {7.1, 7.5, 7.9}) expected += 3 * std::hypot(2 * kPi * r, 2);
+    EXPECT_NEAR(helix, expected, 1e-9);
+    const motion::Program bolt = milled("CYCLE70(5,0,1,-6,26,1.3,0,2,1,0,500,1,50,60,0,2)\n");
+    EXPECT_NEAR(math::hypot(bolt.moves[4].end.tip_mm.x - 50, bolt.moves[4].end.tip_mm.y - 60), 13 - 1.3 + 5,
+                1e-9);
+}
+
+TEST(SiemensCycles, RefusesContoursThatDoNotFit) {
+    const std::string start = "G71 G90 G17\nT1 D1 M6\nG0 X0 Y0 Z5 M3 F100\n";
+    const std::string contour = "M30\n%_N_C_SPF\nG1 X0 Y0\nY5\n";
+    const Refusal refusals[] = {
+        {start + "CYCLE72(\"C\",5,0,1,0,2,0,0,300,100,2,41,2,3,,1,4)\n" + contour, 4, 1,
+         "the depth is not below"},
+        {start + "CYCLE72(\"C\",5,0,1,-4,2,0,0,300,100,2,41,7,3,,1,4)\n" + contour, 4, 1,
+         "without a known way"},
+        {start + "CYCLE72(\"C\",5,0,1,-4,2,0,0,300,100,2,40,2,3,,1,4)\n" + contour, 4, 1,
+         "without a known way"},
+        {start + "CYCLE72(\"A:B\",5,0,1,-4,2,0,0,300,100,2,40,1,3,,1,4)\n" + contour, 4, 1,
+         "the labels of the"},
+        {start + "CYCLE72(\"D\",5,0,1,-4,2,0,0,300,100,2,40,1,3,,1,4)\nM30\n%_N_D_SPF\nG1 X0\nM17\n", 4, 1,
+         "no elements"},
+        {start + "CYCLE72(\"D\",5,0,1,-4,2,0,0,300,100,2,40,1,3,,1,4)\nM30\n%_N_D_SPF\nPOCKET4(5,0,1,-4,20)"
+                 "\nM17\n",
+         7, 1, "within a contour"},
+        {start + "SCALE X2\nCYCLE72(\"C\",5,0,1,-4,2,0,0,300,100,2,41,2,3,,1,4)\n" + contour, 5, 1,
+         "unevenly scaled"},
+        {start + "SLOT2(5,0,1,-2,,2,400,10,0,0,20,0,0,100,300,1,3,0,0)\n", 4, 1, "the slot is no arc"},
+        {start + "CYCLE70(5,0,1,-6,26,1.3,0,0,1,0,500,0,50,60,0,2)\n", 4, 1, "the pitch is none"},
+    };
+    expect_refused(refusals, [](const std::string& text, const std::string& name) {
+        GcodeOptions options;
+        options.source_name = name;
+        return read_siemens(text, options);
+    });
 }
 
 }  // namespace

@@ -315,7 +315,7 @@ TEST(Siemens, RefusesWithPlaceCauseAndRemedy) {
         {start + "DEF WORD A\n", 4, 11, "DEF without a type"},
         {start + "DEF REAL A[3]\nA[3]=1\n", 5, 1, "the index lies outside"},
         {start + "TRACYL(40)\n", 4, 1, "TRACYL (a path on a cylinder)"},
-        {start + "CYCLE62(\"A\",1)\n", 4, 1, "CYCLE62 (a contour"},
+        {start + "CYCLE63(\"A\",1)\n", 4, 1, "CYCLE63 (a contour"},
         {start + "CYCLE99(1)\n", 4, 1, "CYCLE99 is not read"},
         {start + "HOLES1(0,0,0,0,5,3)\n", 4, 1, "HOLES1 without MCALL"},
         {start + "F100\nCYCLE81(5,0,1)\n", 5, 1, "CYCLE81 has no depth"},
