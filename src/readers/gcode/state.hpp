@@ -132,6 +132,12 @@ struct Cylinder {
     double radius_mm = 0;
 };
 
+// Blocks of G68.2 P2 or P3 that describe a plane together: points, and directions, by their Q.
+struct PlaneBlocks {
+    int kind = 0;  // 2: three points; 3: two vectors
+    std::array<std::optional<Vec3>, 4> points, directions;
+};
+
 // A plane turned in space whose coordinates the program writes (frames/tilted_plane.hpp).
 struct TiltedPlane {
     motion::WorkFrame frame;  // in the stock
@@ -191,6 +197,7 @@ struct State {
     Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
     std::optional<TiltedPlane> tilt;
+    PlaneBlocks plane_blocks;  // so far
     std::optional<SavedModes> saved;
     std::optional<WaitingCorner> corner;
     std::optional<Cylinder> cylinder;
@@ -275,6 +282,7 @@ enum class Note {
     rotary_home,
     rotary_feed,
     roll_pitch_yaw,
+    projection_angles,
     round_pocket,
     second_tool,
     program_of_machine,

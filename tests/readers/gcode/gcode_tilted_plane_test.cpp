@@ -58,6 +58,33 @@ TEST(GcodeTiltedPlane, roll_pitch_and_yaw_turn_about_the_fixed_axes_in_order) {
                 {0, -1, 0});
 }
 
+TEST(GcodeTiltedPlane, points_vectors_and_projections_state_the_same_plane) {
+    // Z as in eulers_angles_turn_about_z_x_and_z; X along (cos 30, 0, -sin 30), Y as the stock's.
+    const std::string c = std::to_string(kC), s = std::to_string(kS);
+    const std::string rest = "\nG53.1\nG0 X0 Y0 Z5\nG1 X10\n";
+    const Vec3 tip{1 + 10 * kC + 5 * kS, 2, 3 + 5 * kC - 10 * kS}, axis{kS, 0, kC};
+    const std::string by_points = "G68.2 P2 Q1 X1 Y2 Z3\nG68.2 P2 Q2 X" + std::to_string(1 + 20 * kC) +
+                                  " Y2 Z" + std::to_string(3 - 20 * kS) + "\nG68.2 P2 Q3 X1 Y7 Z3";
+    const std::string by_vectors =
+        "G68.2 P3 Q1 X1 Y2 Z3 I" + c + " J0 K-" + s + "\nG68.2 P3 Q2 I" + s + " J0 K" + c;
+    for (const std::string& plane :
+         {"G68.2 P2 Q0 X0 Y0 Z0 R0\n" + by_points, by_points, by_vectors,
+          // Written in another order, and anew over a plane before.
+          "G68.2 P2 Q3 X1 Y7 Z3\nG68.2 P2 Q1 X1 Y2 Z3\nG68.2 P2 Q2 X" + std::to_string(1 + 20 * kC) + " Y2 Z" +
+              std::to_string(3 - 20 * kS),
+          "G68.2 X0 Y0 Z0 I0 J90 K0\n" + by_vectors, "G68.2 P4 X1 Y2 Z3 I30 J0 K0" + std::string()}) {
+        const motion::ToolPose pose = end_of(tilted(plane + rest));
+        EXPECT_LT(distance(pose.tip_mm, tip), 1e-5) << plane;
+        EXPECT_LT(distance(pose.axis, axis), 1e-6) << plane;
+    }
+    // Both projections: the tool is normal to (cos I, 0, -sin I) and (0, cos J, sin J).
+    const motion::ToolPose both =
+        end_of(tilted("G68.2 P4 X0 Y0 Z0 I30 J20 K90\nG53.1\nG0 X0 Y0 Z0\nG1 Y-1\n"));
+    EXPECT_NEAR(dot(both.axis, {kC, 0, -kS}), 0, 1e-12);
+    EXPECT_NEAR(dot(both.axis, {0, std::cos(kPi / 9), std::sin(kPi / 9)}), 0, 1e-12);
+    expect_pose(both, {kC, 0, -kS}, both.axis);  // turned by 90 degrees, -y lies along the first vector
+}
+
 TEST(GcodeTiltedPlane, g68_in_space_turns_about_its_axis_and_adds_to_one_before) {
     expect_pose(end_of(tilted("G68 X1 Y0 Z0 I1 J0 K0 R90\nG0 X0 Y0 Z0\nG1 X2 Y3 Z4\n")), {3, -4, 3},
                 {0, -1, 0});

@@ -107,14 +107,101 @@ Result<motion::WorkFrame> turned_in_order(Command& command, motion::WorkFrame fr
     return frame;
 }
 
-// G68.2: Euler's angles about Z, X and Z. P1: roll, pitch and yaw.
+// The frame at the origin with a direction of its z, and one near its x.
+std::optional<motion::WorkFrame> frame_of(Vec3 origin, Vec3 x, Vec3 z) {
+    const Vec3 y = cross(z, x);
+    if (!(length(z) > 1e-9) || !(length(y) > 1e-6 * length(z) * length(x))) return std::nullopt;
+    motion::WorkFrame frame;
+    frame.origin_mm = origin;
+    frame.z = normalized(z);
+    frame.y = normalized(y);
+    frame.x = cross(frame.y, frame.z);
+    return frame;
+}
+
+// P4: X turned about Y by I, and Y turned about X by J, lie in the plane; X turns in it by K.
+Result<motion::WorkFrame> plane_of_projections(Command& command, const motion::WorkFrame& frame, Code code,
+                                               Output& output) {
+    const auto angles = read_angles(command, output);
+    if (!angles) return std::unexpected(angles.error());
+    const double i = (*angles)[0], j = (*angles)[1];
+    const Vec3 a = math::cos(i) * frame.x - math::sin(i) * frame.z;
+    const Vec3 b = math::cos(j) * frame.y + math::sin(j) * frame.z;
+    const auto plane = frame_of(frame.origin_mm, a, cross(a, b));
+    if (!plane) {
+        return output.refuse(command.line(), code.column, "the projection angles of G68.2 P4 give no plane",
+                             "correct I and J");
+    }
+    if (output.first(Note::projection_angles)) {
+        output.warn(command.line(),
+                    "G68.2 P4: X turned about Y by I and Y turned about X by J are taken as the "
+                    "directions of the plane");
+    }
+    return plane->turned(kAxes[2], (*angles)[2]);
+}
+
+// Keeps a block of G68.2 P2 (three points: the origin, one on X, one on the side of Y) or P3 (Q1: origin and
+// X, Q2: Z). Returns true if the blocks of the plane are complete.
+Result<bool> keep_plane_block(Command& command, State& state, Output& output, int kind) {
+    const Word* q = command.use('Q');
+    const int most = kind == 2 ? 3 : 2;
+    const double number = q == nullptr ? -1 : q->value;
+    if (!(number >= (kind == 2 ? 0 : 1)) || number > most || number != std::floor(number)) {
+        return output.refuse(command.line(), q == nullptr ? 1 : q->column,
+                             "G68.2 P" + std::to_string(kind) + " without Q1 to Q" + std::to_string(most),
+                             "write which part of the plane the block states");
+    }
+    const auto at = static_cast<std::size_t>(number);
+    PlaneBlocks& blocks = state.plane_blocks;
+    if (blocks.kind != kind || blocks.points[at]) blocks = {};
+    blocks.kind = kind;
+    const auto point = read_origin(command, state, output);
+    if (!point) return std::unexpected(point.error());
+    blocks.points[at] = *point;
+    Vec3 direction;
+    for (int k = 0; k < 3; ++k) {
+        if (const Word* word = command.use("IJK"[k])) direction[k] = word->value;
+    }
+    blocks.directions[at] = direction;
+    const Word* turn = command.use('R');
+    if (at == 0 && (length(*point) > 0 || (turn != nullptr && turn->value != 0))) {
+        return output.refuse(command.line(), q->column, "a shift or a turn in Q0 of G68.2 P2 is not read",
+                             "let the CAM system write the plane by its angles I J K");
+    }
+    for (int k = 1; k <= most; ++k) {
+        if (!blocks.points[static_cast<std::size_t>(k)]) return false;
+    }
+    return true;
+}
+
+Result<motion::WorkFrame> plane_of_blocks(const Command& command, const State& state, Code code,
+                                          const Output& output) {
+    const PlaneBlocks& blocks = state.plane_blocks;
+    const int kind = blocks.kind;
+    const motion::WorkFrame base = work_frame(state);
+    const Vec3 origin = base.in_stock(*blocks.points[1]);
+    const Vec3 x = kind == 2 ? base.in_stock(*blocks.points[2]) - origin
+                             : base.direction_in_stock(*blocks.directions[1]);
+    const Vec3 z = kind == 2 ? cross(x, base.in_stock(*blocks.points[3]) - origin)
+                             : base.direction_in_stock(*blocks.directions[2]);
+    const auto plane = frame_of(origin, x, z);
+    if (!plane) {
+        return output.refuse(command.line(), code.column,
+                             kind == 2 ? "the points of G68.2 P2 lie on one line"
+                                       : "the vectors of G68.2 P3 have no directions of their own",
+                             "correct them");
+    }
+    return *plane;
+}
+
+// G68.2: Euler's angles about Z, X and Z. P1: roll, pitch and yaw. P4: projection angles.
 Result<motion::WorkFrame> plane_of_angles(Command& command, const motion::WorkFrame& frame, Code code,
                                           Output& output) {
     const Word* kind = command.use('P');
     if (kind != nullptr && kind->value == 1) return turned_in_order(command, frame, 123, code, output);
+    if (kind != nullptr && kind->value == 4) return plane_of_projections(command, frame, code, output);
     if (kind != nullptr && kind->value != 0) {
-        return output.refuse(command.line(), kind->column,
-                             "G68.2 is read with Euler's angles and with P1 (roll, pitch and yaw) alone",
+        return output.refuse(command.line(), kind->column, "G68.2 is read with P0 to P4",
                              "let the CAM system write the plane by its angles I J K");
     }
     const auto angles = read_angles(command, output);
@@ -157,6 +244,17 @@ Result<motion::WorkFrame> plane_of_tool(Command& command, motion::WorkFrame fram
     return frame.turned(kAxes[2], angle->value * math::kRadPerDeg);
 }
 
+// The plane that one block describes, in the work system or in the plane before.
+Result<motion::WorkFrame> plane_of_block(Command& command, const State& state, Code code, Vec3 origin,
+                                         Output& output) {
+    const motion::WorkFrame base =
+        (state.tilt ? state.tilt->frame.shifted(state.origin_mm()) : work_frame(state)).shifted(origin);
+    if (code.tenths == 680) return plane_about_axis(command, base, code, output);
+    if (code.tenths == 682) return plane_of_angles(command, base, code, output);
+    if (code.tenths == 2680) return turned_in_order(command, base, 321, code, output);
+    return plane_of_tool(command, base, state, output);
+}
+
 }  // namespace
 
 bool begins_tilted_plane(const Command& command, Code rotation) {
@@ -171,19 +269,32 @@ Result<void> begin_tilted_plane(Command& command, State& state, Output& output, 
                              "end G16, G51, G51.1 and G68 before it");
     }
     const std::optional<Vec3> tip = tip_in_stock(state, output);
-    const auto origin = read_origin(command, state, output);
-    if (!origin) return std::unexpected(origin.error());
+    const auto hide_words = [&] {
+        for (const char letter : {'I', 'J', 'K', 'R', 'P', 'Q'}) command.hide(letter);
+    };
+    const Word* kind = code.tenths == 682 ? command.use('P') : nullptr;
+    const bool is_of_blocks = kind != nullptr && (kind->value == 2 || kind->value == 3);
+    Vec3 origin;
+    if (is_of_blocks) {
+        const auto complete = keep_plane_block(command, state, output, static_cast<int>(kind->value));
+        if (!complete) return std::unexpected(complete.error());
+        if (!*complete) {
+            hide_words();
+            return {};
+        }
+    } else {
+        state.plane_blocks = {};
+        const auto read = read_origin(command, state, output);
+        if (!read) return std::unexpected(read.error());
+        origin = *read;
+    }
     // A second G68 counts in the first one; the others replace it.
     const bool adds = code.tenths == 680 && state.tilt;
     if (state.tilt && !adds) end_tilted_plane(state, output, command.line());
-    const motion::WorkFrame base =
-        (adds ? state.tilt->frame.shifted(state.origin_mm()) : work_frame(state)).shifted(*origin);
-    const auto plane = code.tenths == 680    ? plane_about_axis(command, base, code, output)
-                       : code.tenths == 682  ? plane_of_angles(command, base, code, output)
-                       : code.tenths == 2680 ? turned_in_order(command, base, 321, code, output)
-                                             : plane_of_tool(command, base, state, output);
+    const auto plane = is_of_blocks ? plane_of_blocks(command, state, code, output)
+                                    : plane_of_block(command, state, code, origin, output);
     if (!plane) return std::unexpected(plane.error());
-    for (const char letter : {'I', 'J', 'K', 'R', 'P', 'Q'}) command.hide(letter);
+    hide_words();
     if (!adds) {
         state.tilt.emplace();
         state.tilt->preset_before_mm = state.preset_mm;
