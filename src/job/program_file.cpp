@@ -11,6 +11,7 @@
 #include "readers/apt/reader.hpp"
 #include "readers/control/fanuc_words.hpp"
 #include "readers/gcode/reader.hpp"
+#include "readers/heidenhain/din_iso.hpp"
 #include "readers/heidenhain/reader.hpp"
 #include "readers/siemens/reader.hpp"
 #include "readers/tables/keyframes_csv.hpp"
@@ -35,7 +36,7 @@ constexpr std::array kExtensions{
     Extension{".apt", PathKind::apt},       Extension{".cls", PathKind::apt},
     Extension{".cldata", PathKind::apt},    Extension{".cl", PathKind::apt},
     Extension{".aptsource", PathKind::apt}, Extension{".ncl", PathKind::apt},
-    Extension{".csv", PathKind::keyframes},
+    Extension{".i", PathKind::gcode},       Extension{".csv", PathKind::keyframes},
 };
 
 // Of a line of APT, in lower case. The first two are comments of Creo and CATIA.
@@ -111,6 +112,19 @@ Result<motion::Program> parse_apt(std::string_view bytes, const std::string& pat
     return readers::read_apt(bytes, apt);
 }
 
+Result<motion::Program> parse_din_iso(std::string_view bytes, const readers::GcodeOptions& options,
+                                      readers::MoveSink* sink) {
+    const std::string conversational = readers::in_conversational_words(bytes);
+    auto program = sink != nullptr ? readers::read_heidenhain(conversational, options, *sink)
+                                   : readers::read_heidenhain(conversational, options);
+    if (!program) return program;
+    program->dialect = "Heidenhain DIN/ISO";
+    program->warnings.push_back({options.source_name, 0,
+                                 "a DIN/ISO program of a Heidenhain control: its words are read in those of "
+                                 "conversational programs"});
+    return program;
+}
+
 // Moves go to the sink, or into the program where there is none.
 Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& path,
                                     const ProgramFileOptions& options, readers::MoveSink* sink) {
@@ -126,6 +140,7 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
         gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
     }
     gcode.missing_programs = options.missing_programs;
+    if (!options.dialect && readers::looks_like_din_iso(bytes)) return parse_din_iso(bytes, gcode, sink);
     const auto other = options.dialect ? std::nullopt : readers::detect_other_control(bytes);
     std::string in_fanuc_words;
     if (other) {
@@ -168,6 +183,7 @@ std::optional<PathKind> detect_program(std::string_view bytes, const std::string
 readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
                                     const ProgramFileOptions& options) {
     if (options.dialect) return *options.dialect;
+    if (readers::looks_like_din_iso(bytes)) return readers::Dialect::heidenhain;
     if (readers::detect_other_control(bytes)) return readers::Dialect::fanuc;
     if (const auto told = readers::detect_dialect(bytes)) return *told;
     const std::string extension = lower(extension_of(path));

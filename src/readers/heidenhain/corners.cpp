@@ -38,7 +38,7 @@ Result<void> Interpreter::close_contour() {
 bool Interpreter::corner_follows() const {
     if (corner_next_) return *corner_next_;
     for (std::size_t i = at_ + 1; i < lines_.size(); ++i) {
-        const Line line = line_of(lines_[i], static_cast<int>(i) + 1);
+        const Line line = line_at(i);
         if (line.text.empty() || line.text[0] == '*') continue;
         LineReader in(line, source_name_, parameters_);
         return in.take("RND") || in.take("CHF");

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "readers/heidenhain/din_iso.hpp"
 #include "readers/heidenhain/reader.hpp"
 #include "readers/text/length_unit.hpp"
 #include "readers/text/text_lines.hpp"
@@ -32,9 +33,17 @@ Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, Mo
       limit_(path_.options, bytes.size(), path_.moves) {
     path_.program.dialect = "Heidenhain";
     TextLines text(bytes);
-    while (const auto line = text.next()) lines_.push_back(*line);
+    for (int number = 1; auto line = text.next(); ++number) {
+        for (std::size_t end = line->find(kNextBlock); end != line->npos; end = line->find(kNextBlock)) {
+            lines_.push_back(line->substr(0, end));
+            numbers_.push_back(number);
+            line->remove_prefix(end + 1);
+        }
+        lines_.push_back(*line);
+        numbers_.push_back(number);
+    }
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-        const Line line = line_of(lines_[i], static_cast<int>(i) + 1);
+        const Line line = line_at(i);
         if (line.text.size() < 4) continue;
         LineReader in(line, source_name_, parameters_);
         if (in.take("BEGIN") && in.take("PGM")) {
@@ -77,7 +86,7 @@ bool Interpreter::goes_on_after(const Error& error) {
     if (!keep_refusal(path_.options.refusals, error) || is_over_) return false;
     while (line_.goes_on && at_ + 1 < lines_.size()) {
         ++at_;
-        line_ = line_of(lines_[at_], static_cast<int>(at_) + 1);
+        line_ = line_at(at_);
     }
     contour_ = {};
     free_.reset();
@@ -88,7 +97,7 @@ bool Interpreter::goes_on_after(const Error& error) {
 // Makes the line at at_ the running line, and counts it.
 Result<void> Interpreter::take_line() {
     const std::string_view text = lines_[at_];
-    const int number = static_cast<int>(at_) + 1;
+    const int number = numbers_[at_];
     if (text.size() > kLongestBlock) {
         return path_.refuse({number, static_cast<int>(kLongestBlock) + 1}, too_long_block(text.size()),
                             "write it on several lines");

@@ -216,12 +216,14 @@ class Interpreter {
     Vec3 in_frame(double x, double y, double z) const;
     Result<void> run_at(const std::vector<Vec3>& points, Place place);
 
+    Line line_at(std::size_t i) const { return line_of(lines_[i], numbers_[i]); }
     Place place(int column) const { return {line_.number, column}; }
 
     std::string source_name_;
     Path path_;
     Contour contour_;
-    std::vector<std::string_view> lines_;
+    std::vector<std::string_view> lines_;  // blocks: a line of the text may hold several
+    std::vector<int> numbers_;             // of their lines in the text
     // A program of the text, with the line of its BEGIN PGM.
     struct Unit {
         std::string name;

@@ -103,7 +103,7 @@ Result<void> Interpreter::define_tool(LineReader& in) {
 // Finds the numbers that tools have in the text, so that named tools get others.
 void Interpreter::number_tools() {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
-        const Line line = line_of(lines_[i], static_cast<int>(i) + 1);
+        const Line line = line_at(i);
         if (line.text.size() < 9 || to_upper(line.text[0]) != 'T') continue;
         LineReader in(line, source_name_, parameters_);
         if (!in.take("TOOL") || (!in.take("CALL") && !in.take("DEF"))) continue;

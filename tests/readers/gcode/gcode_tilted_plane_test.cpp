@@ -70,8 +70,8 @@ TEST(GcodeTiltedPlane, points_vectors_and_projections_state_the_same_plane) {
     for (const std::string& plane :
          {"G68.2 P2 Q0 X0 Y0 Z0 R0\n" + by_points, by_points, by_vectors,
           // Written in another order, and anew over a plane before.
-          "G68.2 P2 Q3 X1 Y7 Z3\nG68.2 P2 Q1 X1 Y2 Z3\nG68.2 P2 Q2 X" + std::to_string(1 + 20 * kC) + " Y2 Z" +
-              std::to_string(3 - 20 * kS),
+          "G68.2 P2 Q3 X1 Y7 Z3\nG68.2 P2 Q1 X1 Y2 Z3\nG68.2 P2 Q2 X" + std::to_string(1 + 20 * kC) +
+              " Y2 Z" + std::to_string(3 - 20 * kS),
           "G68.2 X0 Y0 Z0 I0 J90 K0\n" + by_vectors, "G68.2 P4 X1 Y2 Z3 I30 J0 K0" + std::string()}) {
         const motion::ToolPose pose = end_of(tilted(plane + rest));
         EXPECT_LT(distance(pose.tip_mm, tip), 1e-5) << plane;
