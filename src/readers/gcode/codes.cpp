@@ -135,6 +135,8 @@ std::optional<GGroup> group_of_g(int tenths) {
             return GGroup::scaling;
         case 501:
         case 511:
+        case 1000:  // Haas
+        case 1010:
             return GGroup::mirror;
         case 680:
         case 682:

@@ -213,6 +213,10 @@ class ProgramReader {
     }
 
     Result<bool> execute(Command& command) {
+        if (state_.enters_data) {
+            state_.enters_data = !command.has_g(GGroup::idle, 110);
+            return true;
+        }
         if (auto done = check_corner(command); !done) return std::unexpected(done.error());
         if (auto done = close_nurbs_before(command, state_, output_); !done) {
             return std::unexpected(done.error());

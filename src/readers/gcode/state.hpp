@@ -62,6 +62,8 @@ struct Cycle {
     int line = 0;                                // line of its code
     std::optional<double> depth_mm, retract_mm;  // Z and R as written: absolute, or increments in G91
     std::optional<double> peck_mm, dwell_s;
+    // I J K of Haas controls: the first peck, what each later one is shorter by, and the shortest.
+    std::optional<double> first_peck_mm, peck_step_mm, least_peck_mm;
     std::optional<double> initial_mm;  // position on the cycle axis at its start; G98 returns to it
 };
 
@@ -198,6 +200,7 @@ struct State {
     bool preset_on = true;
     std::optional<TiltedPlane> tilt;
     PlaneBlocks plane_blocks;  // so far
+    bool enters_data = false;  // between G10 L50 or L52 and G11: blocks are values of the control
     std::optional<SavedModes> saved;
     std::optional<WaitingCorner> corner;
     std::optional<Cylinder> cylinder;
@@ -269,6 +272,8 @@ enum class Note {
     probing,
     whole_peck,
     lost_preset,
+    tap_return,
+    entered_data,
     empty_code,
     scale,
     coarse_arc,

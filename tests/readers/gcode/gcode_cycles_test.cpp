@@ -85,5 +85,19 @@ TEST(GcodeCycles, SayWhatTheyAssume) {
     EXPECT_TRUE(warns("G98 G88 X1 Z-3 R1\n", "by hand"));
 }
 
+// Haas VF series operator's manual, G83: the first peck is I deep, each later one J less, at least K.
+TEST(GcodeCycles, ShortensThePecksOfHaasControls) {
+    GcodeOptions fanuc;
+    fanuc.dialect = GcodeDialect::fanuc;
+    EXPECT_EQ(path_of("G99 G73 X0 Z-10 R1 I4 J1 K2", fanuc),
+              "r0,0,1 f0,0,-3 r0,0,-2.746 f0,0,-6 r0,0,-5.746 f0,0,-8 r0,0,-7.746 f0,0,-10 r0,0,1");
+    EXPECT_EQ(path_of("G99 G83 X0 Z-5 R1 I4 J1 K2", fanuc),
+              "r0,0,1 f0,0,-3 r0,0,1 r0,0,-2.746 f0,0,-5 r0,0,1");
+    // I alone: equal pecks.
+    EXPECT_EQ(path_of("G99 G73 X0 Z-7 R1 I4", fanuc), path_of("G99 G73 X0 Z-7 R1 Q4", fanuc));
+    EXPECT_EQ(path_of("G99 G84 X0 Z-7 R1 J2", fanuc), path_of("G99 G84 X0 Z-7 R1", fanuc));
+    EXPECT_EQ(path_of("G99 G76 X0 Z-7 R1 I0.1 J0", fanuc), path_of("G99 G76 X0 Z-7 R1 Q0.1", fanuc));
+}
+
 }  // namespace
 }  // namespace tribo::readers

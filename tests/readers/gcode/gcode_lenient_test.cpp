@@ -33,6 +33,21 @@ void expect_passed(std::span<const Passed> cases, GcodeDialect dialect) {
     }
 }
 
+TEST(GcodeReader, TakesTheWordsOfOneControlAsTheyAreMeantThere) {
+    const std::string ready = "G21 M3 F100\nG0 X0 Y0 Z5\n";  // two lines
+    const Passed fanuc[] = {
+        {ready + "G10 L50\nN1815 P1 R5\nN3410 R0.05\nG11\nG1 X10\n", 3, "values of the control", 10},
+        {ready + "G101 X0\nG1 X10\nG100 X0\nX10\n", 0, "", 10 + 20},
+        {ready + "G101 Y0\nG1 X10\nG100\nX20\n", 0, "", 20},
+    };
+    expect_passed(fanuc, GcodeDialect::fanuc);
+    const Passed linuxcnc[] = {
+        {"G21 M3 F100\nG10 L20 P0 X0 Y0 Z5\nG1 X10\n", 2, "count from the stock's origin", 10},
+        {ready + "G38.2 Z-9\nG10 L20 P1 Z1\nG1 Z2\n", 4, "taken to stay where it was", 1},
+    };
+    expect_passed(linuxcnc, GcodeDialect::linuxcnc);
+}
+
 TEST(GcodeReader, PassesOverWhatLeavesThePathAsItIs) {
     const std::string ready = "G21 M3 F100\nG0 X0 Y0 Z5\n";  // two lines
     const Passed cases[] = {

@@ -164,7 +164,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G4 P-1\n", 3, 4, "dwell of -1 s is out of range"},
         {ready + "G4 P1 X5\n", 3, 7, "X without a code"},
         {ready + "G10 L50 P1 X0\n", 3, 5, "of G10 only"},
-        {"G21\nG0 X1\nG10 L20 P1 Y0\n", 3, 1, "Y is not known"},
+        {"G21\nG0 X1\nG10 L20 P2 Y0\n", 3, 1, "Y is not known"},
         {ready + "G10 L20 P1 R5\n", 3, 12, "does not turn work systems"},
         {"G21\nG0 X1\nG10 L2 P1 R5\n", 3, 11, "only one of X and Y is known"},
         {ready + "G10 L1 X0\n", 3, 1, "the number of a tool"},

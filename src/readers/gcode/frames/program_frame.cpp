@@ -107,9 +107,10 @@ Result<void> begin_scale(Command& command, State& state, Output& output, Code co
 }
 
 Result<void> set_mirror(Command& command, State& state, Output& output, Code code) {
-    const bool begins = code.tenths == 511;
+    const bool begins = code.tenths == 511 || code.tenths == 1010;
     if (begins && !command.has_any("XYZ")) {
-        return output.refuse(command.line(), code.column, "G51.1 without the place of its mirror",
+        return output.refuse(command.line(), code.column,
+                             code_text('G', code.tenths) + " without the place of its mirror",
                              "write X, Y or Z");
     }
     if (!begins && !command.has_any("XYZ")) state.frame.mirror_mm = {};

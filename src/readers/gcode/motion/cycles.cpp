@@ -195,6 +195,7 @@ class Run {
         if (may_peck() || cycle.tenths == 760 || cycle.tenths == 870) {
             if (auto done = read_length('Q', cycle.peck_mm); !done) return done;
         }
+        if (auto done = read_words_of_fanuc(); !done) return done;
         if (cycle.tenths != 810 && cycle.tenths != 850) {
             if (auto done = read_dwell(); !done) return done;
         }
@@ -208,6 +209,28 @@ class Run {
             output_.warn(command_.line(),
                          code_text('G', cycle.tenths) +
                              " without a depth of its pecks (Q): the hole is drilled in one");
+        }
+        return {};
+    }
+
+    // Haas: I J K of pecks that grow shorter, J of a tap that returns faster. Fanuc: I J of a boring bar's
+    // shift.
+    Result<void> read_words_of_fanuc() {
+        if (output_.options.dialect != GcodeDialect::fanuc) return {};
+        Cycle& cycle = state_.cycle;
+        if (may_peck() && command_.has_any("I")) {
+            if (auto done = read_length('I', cycle.first_peck_mm); !done) return done;
+            if (auto done = read_length('J', cycle.peck_step_mm); !done) return done;
+            if (auto done = read_length('K', cycle.least_peck_mm); !done) return done;
+        }
+        const bool is_tap = cycle.tenths == 740 || cycle.tenths == 840;
+        if (is_tap && command_.use('J') != nullptr && output_.first(Note::tap_return)) {
+            output_.warn(command_.line(),
+                         "the faster return of a tap (J) is left out: it returns at its feed");
+        }
+        if (cycle.tenths == 760 || cycle.tenths == 870) {
+            command_.use('I');
+            command_.use('J');
         }
         return {};
     }
@@ -226,7 +249,8 @@ class Run {
     Result<void> read_repeats() {
         const bool is_fanuc = output_.options.dialect == GcodeDialect::fanuc;
         const Word* word = command_.use('L');
-        if (word == nullptr && is_fanuc) word = command_.use('K');
+        const bool is_peck = may_peck() && state_.cycle.first_peck_mm;  // K of Haas: the shortest peck
+        if (word == nullptr && is_fanuc && !is_peck) word = command_.use('K');
         if (word == nullptr) return {};
         const bool fits =
             word->value == std::floor(word->value) && word->value <= kMostRepeats && word->value >= 0;
@@ -241,11 +265,27 @@ class Run {
 
     bool may_peck() const { return state_.cycle.tenths == 730 || state_.cycle.tenths == 830; }
     // The sign of Q does not count.
-    double peck_mm() const { return std::abs(state_.cycle.peck_mm.value_or(0)); }
-    bool pecks() const { return may_peck() && peck_mm() > 0; }
+    // The length of the peck `i`, from 0.
+    double peck_mm(int i) const {
+        const Cycle& cycle = state_.cycle;
+        if (!cycle.first_peck_mm) return std::abs(cycle.peck_mm.value_or(0));
+        const double shorter = std::abs(*cycle.first_peck_mm) - i * std::abs(cycle.peck_step_mm.value_or(0));
+        return std::max(shorter, least_peck_mm());
+    }
+    double least_peck_mm() const {
+        const Cycle& cycle = state_.cycle;
+        if (!cycle.first_peck_mm) return std::abs(cycle.peck_mm.value_or(0));
+        const bool shrinks = cycle.peck_step_mm.value_or(0) != 0;
+        return std::abs(shrinks ? cycle.least_peck_mm.value_or(0) : *cycle.first_peck_mm);
+    }
+    bool pecks() const { return may_peck() && peck_mm(0) > 0; }
 
     Result<void> check_pecks() const {
-        if (!pecks() || (retract_ - depth_) / peck_mm() <= kMostPecks) return {};
+        if (pecks() && !(least_peck_mm() > 0)) {
+            return output_.refuse(command_.line(), cycle_column(),
+                                  "pecks that grow shorter (J) without the shortest (K)", "write K");
+        }
+        if (!pecks() || (retract_ - depth_) / least_peck_mm() <= kMostPecks) return {};
         return output_.refuse(command_.line(), cycle_column(), "the hole takes more than 100000 pecks",
                               "correct Q");
     }
@@ -271,9 +311,11 @@ class Run {
     // Moves from the retract level to the bottom, and back as far as the cycle returns at feed.
     Result<void> bottom_and_back() {
         if (pecks()) {
-            const double peck = peck_mm();
-            for (int i = 1; retract_ - i * peck > depth_; ++i) {
-                const double ground = retract_ - i * peck;
+            double ground = retract_;
+            for (int i = 0;; ++i) {
+                // Equal pecks count from the level R on, so that their errors do not add up.
+                ground = state_.cycle.first_peck_mm ? ground - peck_mm(i) : retract_ - (i + 1) * peck_mm(i);
+                if (!(ground > depth_)) break;
                 if (auto moved = go(MoveKind::feed, ground); !moved) return moved;
                 if (state_.cycle.tenths == 830) {
                     if (auto moved = go(MoveKind::rapid, retract_); !moved) return moved;

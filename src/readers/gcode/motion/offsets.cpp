@@ -88,6 +88,26 @@ Result<void> set_work_origin(Command& command, State& state, Output& output,
     return {};
 }
 
+// A block names the place of the tip where only the machine knows it: the zero of the program stays.
+void place_by_name(const Command& command, int axis, double named_mm, const char* code, State& state,
+                   Output& output) {
+    Known& known = state.known[static_cast<std::size_t>(axis)];
+    if (known == Known::lost && output.first(Note::lost_preset)) {
+        output.warn(command.line(), std::string(code) +
+                                        " at a place that only the machine knows since line " +
+                                        std::to_string(state.lost_line) +
+                                        ": the zero of the program is taken to stay where it was");
+    }
+    if (known == Known::unstated && output.first(Note::preset_as_origin)) {
+        output.warn(command.line(),
+                    std::string(code) +
+                        " before the tool has a place: the coordinates count from the stock's "
+                        "origin");
+    }
+    state.tip_mm[axis] = named_mm + state.origin_mm()[axis];
+    known = Known::yes;
+}
+
 // G10 L20: sets the origin of a work system so that the tip has these coordinates in it.
 Result<void> set_work_origin_by_tip(Command& command, State& state, Output& output, int column) {
     const auto index = work_system_of(command, state, output, column);
@@ -104,10 +124,14 @@ Result<void> set_work_origin_by_tip(Command& command, State& state, Output& outp
         if (!word) return std::unexpected(word.error());
         if (!*word) continue;
         if (state.known[static_cast<std::size_t>(axis)] != Known::yes) {
-            return output.refuse(
-                command.line(), column,
-                std::string("G10 L20 names the tip's place while ") + "XYZ"[axis] + " is not known",
-                "move there by G0 before it, or use G10 L2");
+            if (static_cast<int>(*index) != state.active_work || work.turn_deg != 0) {
+                return output.refuse(
+                    command.line(), column,
+                    std::string("G10 L20 names the tip's place while ") + "XYZ"[axis] + " is not known",
+                    "move there by G0 before it, or use G10 L2");
+            }
+            place_by_name(command, axis, **word, "G10 L20", state, output);
+            continue;
         }
         origin[axis] = tip[axis] - **word - (state.preset_on ? state.preset_mm[axis] : 0);
     }
@@ -157,6 +181,14 @@ Result<void> set_table(Command& command, State& state, Output& output, int colum
         }
         return {};
     }
+    if (kind != nullptr && (kind->value == 50 || kind->value == 52) &&
+        output.options.dialect == GcodeDialect::fanuc) {
+        state.enters_data = true;
+        if (output.first(Note::entered_data))
+            output.warn(command.line(),
+                        "G10 L50 and L52 to G11 set values of the control: they are left out");
+        return {};
+    }
     return output.refuse(command.line(), kind == nullptr ? column : kind->column,
                          "of G10 only L1, L10 to L13 (tools), L2 and L20 (work systems) are read",
                          "let the CAM system write the path without other settings");
@@ -189,19 +221,8 @@ Result<void> preset(Command& command, State& state, Output& output, int column) 
         const auto word = coordinate_mm(command, axis, state, output);
         if (!word) return std::unexpected(word.error());
         if (!*word) continue;
-        Known& known = state.known[static_cast<std::size_t>(axis)];
-        if (known != Known::yes) {
-            if (known == Known::lost && output.first(Note::lost_preset)) {
-                output.warn(command.line(), "G92 at a place that only the machine knows since line " +
-                                                std::to_string(state.lost_line) +
-                                                ": the zero of the program is taken to stay where it was");
-            }
-            if (known == Known::unstated && output.first(Note::preset_as_origin)) {
-                output.warn(command.line(),
-                            "G92 before the tool has a place: the coordinates count from the stock's origin");
-            }
-            state.tip_mm[axis] = **word + state.origin_mm()[axis];
-            known = Known::yes;
+        if (state.known[static_cast<std::size_t>(axis)] != Known::yes) {
+            place_by_name(command, axis, **word, "G92", state, output);
         } else {
             state.preset_mm[axis] += state.tip_mm[axis] - state.origin_mm()[axis] - **word;
         }
