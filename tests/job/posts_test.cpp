@@ -51,6 +51,7 @@ std::string control_of(const std::string& name) {
                                                       {"okuma", "Okuma OSP"},
                                                       {"okuma2", "Okuma OSP"},
                                                       {"fagor", "Fagor 8055"},
+                                                      {"iso", "Heidenhain DIN/ISO"},
                                                       {"apt", ""}};
     return controls.at(name.substr(0, name.find_first_of("_.")));
 }

@@ -89,6 +89,7 @@ void Frames::update() {
     if (type_ == Type::local) to_program_ = to_program_ * local_;
     to_program_ = to_program_ * transform_;
     to_program_.origin_mm += translation_mm_;
+    to_program_ = copy_ * to_program_;
 }
 
 Result<void> Frames::set_machine_frame(const Statement& statement, double unit_mm, bool any_points,

@@ -47,6 +47,12 @@ class Frames {
     // machine's.
     void settle(bool point_has_axis, Report& report);
 
+    // Moves what follows as a copy of what was written before.
+    void set_copy(const Frame& copy) {
+        copy_ = copy;
+        update();
+    }
+
     const Frame& to_program() const { return to_program_; }
 
   private:
@@ -56,7 +62,7 @@ class Frames {
     std::optional<Frame> first_, first_header_;
     std::optional<Frame> unsettled_;  // of a header of Creo, until the next point
     int unsettled_line_ = 0;
-    Frame header_, machine_, local_, transform_, to_program_;
+    Frame header_, machine_, local_, transform_, copy_, to_program_;
     Vec3 translation_mm_;
     Type type_ = Type::unsaid;
 };

@@ -11,6 +11,7 @@
 #include "readers/apt/lexer.hpp"
 #include "readers/apt/passed.hpp"
 #include "readers/apt/path.hpp"
+#include "readers/apt/procedures.hpp"
 #include "readers/apt/report.hpp"
 #include "readers/apt/words.hpp"
 #include "readers/control/refusals.hpp"
@@ -37,9 +38,11 @@ class AptReader {
             const auto found = lexer_.next(statement);
             if (found && !*found) break;
             any = true;
-            const auto done = found ? run(statement) : std::unexpected(found.error());
+            const auto done = found ? unfold(statement) : std::unexpected(found.error());
             if (!done && !goes_on_after(done.error())) return std::unexpected(done.error());
         }
+        if (auto ok = procedures_.finish(); !ok && !goes_on_after(ok.error()))
+            return std::unexpected(ok.error());
         if (auto ok = arcs_.leave(); !ok && !goes_on_after(ok.error())) return std::unexpected(ok.error());
         if (const Error* first = first_refusal(options_.refusals)) return std::unexpected(*first);
         if (!any_known_) {
@@ -66,6 +69,22 @@ class AptReader {
         path_.next_is_rapid = false;
         path_.set_place({});
         return true;
+    }
+
+    // Runs the statement, or those that a macro or a copy makes of it.
+    Result<void> unfold(const Statement& statement) {
+        const auto run_copy = [&](const Statement& one, const Frame& frame) -> Result<void> {
+            if (auto done = move_copy(frame); !done) return done;
+            return one.word.text.empty() || ended_ ? Result<void>{} : run(one);
+        };
+        return procedures_.take(statement, path_.settings.unit_mm, run_copy);
+    }
+    Result<void> move_copy(const Frame& frame) {
+        if (frame.origin_mm == copy_.origin_mm && frame.x == copy_.x && frame.y == copy_.y) return {};
+        if (auto done = arcs_.leave(); !done) return done;
+        copy_ = frame;
+        path_.frames.set_copy(frame);
+        return {};
     }
 
     Result<void> run(const Statement& statement) {
@@ -401,6 +420,8 @@ class AptReader {
     bool any_known_ = false;
     bool ended_ = false;  // by FINI
     PassedWords passed_;
+    Procedures procedures_{report_};
+    Frame copy_;  // in which the statement runs
 };
 
 }  // namespace

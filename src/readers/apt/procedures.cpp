@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: MIT
+#include "readers/apt/procedures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/math.hpp"
+#include "readers/text/decimal_text.hpp"
+
+namespace tribo::readers::apt {
+namespace {
+
+constexpr int kDeepest = 16;  // calls within each other
+constexpr std::size_t kMostStatements = 1'000'000;
+constexpr double kMostCopies = 10'000;
+
+std::string upper(std::string_view text) {
+    std::string out(trimmed(text));
+    std::transform(out.begin(), out.end(), out.begin(), to_upper);
+    return out;
+}
+
+bool is_name(const std::string& text) {
+    return !text.empty() && is_letter(text[0]) && std::all_of(text.begin(), text.end(), [](char c) {
+        return is_letter(c) || is_digit(c) || c == '_';
+    });
+}
+
+// The text before and after the first '='.
+std::pair<std::string, std::string> sides_of(std::string_view text) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) return {upper(text), ""};
+    return {upper(text.substr(0, equals)), upper(text.substr(equals + 1))};
+}
+
+}  // namespace
+
+std::string_view Procedures::kept(std::string text) {
+    texts_.push_back(std::move(text));
+    return texts_.back();
+}
+
+Result<void> Procedures::take(const Statement& statement, double unit_mm, const Run& run) {
+    const bool is_plain = statement.is_text || statement.is_header;
+    if (!defining_.empty()) {
+        if (!is_plain && matches(statement.word.text, "TERMAC")) {
+            defining_.clear();
+        } else {
+            macros_[defining_].statements.push_back(statement);
+        }
+        return {};
+    }
+    if (is_plain) return run_one(statement, {}, run);
+    const auto defined = define(statement);
+    if (!defined) return std::unexpected(defined.error());
+    if (*defined) return {};
+    if (matches(statement.word.text, "CALL")) return call(statement, unit_mm, run);
+    if (matches(statement.word.text, "COPY")) return copy(replaced(statement), unit_mm, run);
+    if (matches(statement.word.text, "INDEX")) {
+        const auto number = statement.items.empty() ? std::nullopt : number_of(statement.items[0].text);
+        if (!number || std::abs(*number) > 1e6)
+            return report_.refuse(statement.word, "INDEX without its number", "write for example INDEX/1");
+        if (statement.items.size() == 1) indices_[static_cast<int>(*number)] = recorded_.size();
+        return {};
+    }
+    return run_one(names_.empty() ? statement : replaced(statement), {}, run);
+}
+
+Result<void> Procedures::finish() const {
+    if (defining_.empty()) return {};
+    return report_.refuse(macros_.at(defining_).at, "the macro " + defining_ + " has no TERMAC",
+                          "write TERMAC behind its last statement");
+}
+
+Result<void> Procedures::run_one(const Statement& statement, const Frame& frame, const Run& run) {
+    if (!indices_.empty()) {
+        if (recorded_.size() >= kMostStatements) {
+            return report_.refuse(statement.word, "copies of more than a million statements are not read",
+                                  "let the CAM system write the copies as GOTO");
+        }
+        recorded_.push_back({statement, frame});
+    }
+    return run(statement, frame);
+}
+
+// A name on the left of '='. Returns false for other statements, and for geometry that has no points.
+Result<bool> Procedures::define(const Statement& statement) {
+    const auto [name, what] = sides_of(statement.word.text);
+    if (what.empty() || !is_name(name)) return false;
+    if (what == "MACRO") {
+        if (auto done = begin_macro(name, statement); !done) return std::unexpected(done.error());
+        return true;
+    }
+    if (what == "POINT" && (statement.items.size() == 2 || statement.items.size() == 3)) {
+        std::vector<std::string> values;
+        for (const Item& item : replaced(statement).items) {
+            if (!number_of(item.text)) return false;
+            values.emplace_back(item.text);
+        }
+        values.resize(3, "0");
+        names_[name] = values;
+        return true;
+    }
+    const auto known = names_.find(what);
+    if (!statement.items.empty() || !(number_of(what) || known != names_.end())) return false;
+    names_[name] = known != names_.end() ? known->second : std::vector<std::string>{what};
+    return true;
+}
+
+Result<void> Procedures::begin_macro(const std::string& name, const Statement& statement) {
+    if (macros_.size() >= 1000)
+        return report_.refuse(statement.word, "more than 1000 macros", "split the program");
+    Macro macro;
+    macro.at = statement.word;
+    for (const Item& item : statement.items) {
+        const auto [parameter, value] = sides_of(item.text);
+        if (!is_name(parameter))
+            return report_.refuse(item, "a parameter of a macro without a name", "write a name of letters");
+        macro.names.push_back(parameter);
+        if (!value.empty()) macro.values[parameter] = value;
+    }
+    macros_[name] = std::move(macro);
+    defining_ = name;
+    return {};
+}
+
+// CALL/NAME,A=1,B=2: the statements of the macro, with its parameters replaced.
+Result<void> Procedures::call(const Statement& statement, double unit_mm, const Run& run) {
+    const auto found = statement.items.empty() ? macros_.end() : macros_.find(upper(statement.items[0].text));
+    if (found == macros_.end())
+        return report_.refuse(statement.word, "CALL of a macro that is not defined before it",
+                              "define it with MACRO");
+    if (depth_ >= kDeepest)
+        return report_.refuse(statement.word, "macros call each other too deeply", "correct the calls");
+    const Macro& macro = found->second;
+    const Names outside = names_;
+    for (const auto& [name, value] : macro.values) names_[name] = {value};
+    for (std::size_t i = 1; i < statement.items.size(); ++i) {
+        auto [name, value] = sides_of(statement.items[i].text);
+        if (std::find(macro.names.begin(), macro.names.end(), name) == macro.names.end() || value.empty())
+            return report_.refuse(statement.items[i], "CALL gives a value to no parameter of the macro",
+                                  "write NAME=value");
+        const auto known = outside.find(value);
+        names_[name] = known != outside.end() ? known->second : std::vector<std::string>{value};
+    }
+    ++depth_;
+    Result<void> done;
+    for (std::size_t i = 0; i < macro.statements.size() && done; ++i) {
+        if (++count_ > kMostStatements) {
+            done = report_.refuse(statement.word, "macros and copies run more than a million statements",
+                                  "correct the calls");
+            break;
+        }
+        done = take(macro.statements[i], unit_mm, run);
+    }
+    --depth_;
+    names_ = outside;
+    return done;
+}
+
+// What one copy is moved by.
+Result<Frame> Procedures::step_of(const Statement& statement, double unit_mm) const {
+    const auto& items = statement.items;
+    const std::string kind = items.size() > 1 ? upper(items[1].text) : "";
+    Frame step;
+    if (kind == "SAME" && items.size() == 3) return step;
+    if (kind == "TRANSL" && items.size() == 6) {
+        for (int k = 0; k < 3; ++k) {
+            const auto by =
+                report_.number(items[2 + static_cast<std::size_t>(k)], kLimits.coordinate, unit_mm);
+            if (!by) return std::unexpected(by.error());
+            step.origin_mm[k] = *by * unit_mm;
+        }
+        return step;
+    }
+    if (kind == "XYROT" && items.size() == 4) {
+        const auto angle = report_.number(items[2], kLimits.rotary_angle);
+        if (!angle) return std::unexpected(angle.error());
+        const double c = math::cos(*angle * math::kRadPerDeg), s = math::sin(*angle * math::kRadPerDeg);
+        step.x = {c, s, 0};
+        step.y = {-s, c, 0};
+        return step;
+    }
+    return report_.refuse(statement.word, "COPY is read with SAME, TRANSL and XYROT",
+                          "write COPY/1,TRANSL,x,y,z,times, or let the CAM system write the points");
+}
+
+// COPY/n,...,times: what was written since INDEX/n again, each time moved on.
+Result<void> Procedures::copy(const Statement& statement, double unit_mm, const Run& run) {
+    const auto& items = statement.items;
+    const auto number = items.empty() ? std::nullopt : number_of(items[0].text);
+    const auto marked =
+        number && std::abs(*number) < 1e6 ? indices_.find(static_cast<int>(*number)) : indices_.end();
+    if (marked == indices_.end())
+        return report_.refuse(statement.word, "COPY without its INDEX before it",
+                              "write INDEX with the same number");
+    const auto step = step_of(statement, unit_mm);
+    if (!step) return std::unexpected(step.error());
+    const auto times = number_of(items.back().text);
+    if (!times || !(*times >= 0 && *times <= kMostCopies) || *times != std::floor(*times))
+        return report_.refuse(items.back(), "COPY without a number of copies",
+                              "write a whole number up to 10000");
+    const std::size_t begin = marked->second, end = recorded_.size();
+    if (static_cast<double>(end - begin) * *times + static_cast<double>(count_) >
+        static_cast<double>(kMostStatements)) {
+        return report_.refuse(statement.word, "macros and copies run more than a million statements",
+                              "write fewer copies");
+    }
+    Frame frame;
+    for (double i = 0; i < *times; ++i) {
+        frame = *step * frame;
+        for (std::size_t k = begin; k < end; ++k) {
+            ++count_;
+            const Recorded again = recorded_[k];
+            if (auto done = run_one(again.statement, frame * again.frame, run); !done) return done;
+        }
+    }
+    return run({}, {});
+}
+
+// The statement with its names replaced by what they stand for.
+Statement Procedures::replaced(const Statement& statement) {
+    Statement changed = statement;
+    changed.items.clear();
+    for (const Item& item : statement.items) {
+        const bool is_negative = item.text.starts_with('-');
+        const auto found = names_.find(upper(is_negative ? item.text.substr(1) : item.text));
+        if (found == names_.end()) {
+            changed.items.push_back(item);
+            continue;
+        }
+        for (const std::string& value : found->second) {
+            const bool was_negative = value.starts_with('-');
+            std::string text = !is_negative ? value : was_negative ? value.substr(1) : "-" + value;
+            changed.items.push_back({kept(std::move(text)), item.line, item.column});
+        }
+    }
+    return changed;
+}
+
+}  // namespace tribo::readers::apt
