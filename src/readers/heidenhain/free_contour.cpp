@@ -464,9 +464,10 @@ void FreeContour::choose(std::size_t number) {
         for (const FreePiece& piece : branch) sum += length_of(piece);
         return sum;
     };
-    std::stable_sort(branches_.begin(), branches_.end(),
-                     [&](const Branch& a, const Branch& b) { return length(a) < length(b); });
-    branches_ = {branches_[number]};
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < branches_.size(); ++i) order.emplace_back(length(branches_[i]), i);
+    std::sort(order.begin(), order.end());
+    branches_ = {branches_[order[number].second]};
     settle();
 }
 

@@ -61,7 +61,6 @@ class FreeContour {
     FreeContour(Vec3 start, std::optional<double> direction) : start_(start), direction_(direction) {}
 
     std::size_t size() const { return elements_.size(); }
-    const FreeElement& element(std::size_t i) const { return elements_[i]; }
     // Adds an element, and works out what follows from it.
     State add(FreeElement element);
     // The number of contours that fit so far.
