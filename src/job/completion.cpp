@@ -35,6 +35,18 @@ Result<milling::Cutter> shaped_cutter(const motion::DeclaredTool& tool, milling:
     return cutter;
 }
 
+// The shank and the holder that a library gives, where they fit the edges.
+void add_holder(const motion::DeclaredTool& tool, milling::Cutter& cutter) {
+    if (tool.shank_mm > 0) cutter.shank_mm = tool.shank_mm;
+    if (!(tool.stickout_mm > 0)) return;
+    if (!(tool.edge_mm > 0) && !milling::has_own_length(cutter.kind))
+        cutter.length_mm = std::max(std::min(cutter.length_mm, tool.stickout_mm), cutter.corner_radius_mm());
+    if (tool.stickout_mm < cutter.length_mm) return;
+    cutter.stickout_mm = tool.stickout_mm;
+    for (const motion::DeclaredStep& step : tool.holder)
+        cutter.holder.push_back({step.diameter_mm, step.length_mm});
+}
+
 Result<milling::Cutter> cutter_of(const motion::DeclaredTool& tool, int number) {
     milling::Cutter cutter;
     cutter.number = number;
@@ -55,6 +67,8 @@ Result<milling::Cutter> cutter_of(const motion::DeclaredTool& tool, int number) 
 std::string description(const milling::Cutter& cutter, const motion::DeclaredTool& tool) {
     std::string text = std::string(kCutterKindWords[static_cast<std::size_t>(cutter.kind)]) + " D" +
                        format_decimal(cutter.diameter_mm) + shape_words(cutter);
+    if (cutter.stickout_mm > 0) text += " stick-out " + format_decimal(cutter.stickout_mm);
+    if (!cutter.holder.empty()) text += " in a holder of " + std::to_string(cutter.holder.size()) + " steps";
     text += tool.flutes > 0 ? ", " + std::to_string(cutter.flutes) + " flutes; " : "; ";
     if (tool.flutes == 0) text += std::to_string(cutter.flutes) + " flutes, ";
     const bool has_length = tool.edge_mm > 0 || milling::has_own_length(cutter.kind);
@@ -70,7 +84,8 @@ Result<void> add_cutter(Job& job, const motion::Program& program, const Declared
                                        [&](const milling::Cutter& c) { return c.number == number; });
     const motion::DeclaredTool* tool = described ? nullptr : declared.find(number);
     if (tool == nullptr) return {};
-    const auto made = cutter_of(*tool, number);
+    auto made = cutter_of(*tool, number);
+    if (made) add_holder(*tool, *made);
     const std::string name = number > 0 ? "tool T" + std::to_string(number) : "the tool";
     const bool from_table = !tool->table.empty();
     const std::string& source = from_table ? tool->table : program.source;

@@ -103,9 +103,9 @@ files::Json declared_tools(const motion::Program& program) {
         }
         if (tool.flutes > 0) entry["flutes"] = tool.flutes;
         const std::pair<const char*, double> sizes[] = {
-            {"tip_mm", tool.tip_mm},   {"point_deg", tool.point_deg}, {"taper_deg", tool.taper_deg},
-            {"side_mm", tool.side_mm}, {"height_mm", tool.height_mm}, {"neck_mm", tool.neck_mm},
-            {"edge_mm", tool.edge_mm},
+            {"tip_mm", tool.tip_mm},   {"point_deg", tool.point_deg},     {"taper_deg", tool.taper_deg},
+            {"side_mm", tool.side_mm}, {"height_mm", tool.height_mm},     {"neck_mm", tool.neck_mm},
+            {"edge_mm", tool.edge_mm}, {"stickout_mm", tool.stickout_mm}, {"shank_mm", tool.shank_mm},
         };
         for (const auto& [key, size] : sizes) {
             if (size > 0) entry[key] = size;

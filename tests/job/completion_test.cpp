@@ -31,6 +31,33 @@ job::Job job_with_stock() {
     return job;
 }
 
+TEST(JobCompletion, takes_stick_out_shank_and_holder_of_a_library) {
+    motion::Program program = program_with_tools({1, 2});
+    motion::DeclaredTool tool{.number = 1, .diameter_mm = 10, .line = 1, .table = "t.json"};
+    tool.stickout_mm = 30;
+    tool.shank_mm = 8;
+    tool.holder = {{20, 15}, {40, 50}};
+    program.tools.push_back(tool);
+    tool.number = 2;
+    tool.edge_mm = 22;
+    program.tools.push_back(tool);
+    job::Job job = job_with_stock();
+    Warnings warnings;
+    ASSERT_TRUE(complete_job(job, program, warnings));
+    ASSERT_EQ(job.cutters.size(), 2u);
+    EXPECT_EQ(job.cutters[0].length_mm, 30);  // 40 mm of edge would reach into the holder
+    EXPECT_EQ(job.cutters[1].length_mm, 22);
+    for (const milling::Cutter& made : job.cutters) {
+        EXPECT_EQ(made.stickout_mm, 30);
+        EXPECT_EQ(made.shank_mm, 8);
+        ASSERT_EQ(made.holder.size(), 2u);
+        EXPECT_EQ(made.holder[1].diameter_mm, 40);
+        EXPECT_EQ(made.holder[1].length_mm, 50);
+    }
+    EXPECT_NE(warnings[0].text.find("stick-out 30 in a holder of 2 steps"), std::string::npos)
+        << warnings[0].text;
+}
+
 TEST(JobCompletion, takes_tools_from_the_job_then_the_table_then_the_program) {
     motion::Program program = program_with_tools({1, 2, 3, 2});
     // The table stands before what the program says.

@@ -55,6 +55,11 @@ struct Move {
     int line = 0;                // of the source, from 1
 };
 
+// One cylindrical step of a holder.
+struct DeclaredStep {
+    double diameter_mm = 0, length_mm = 0;
+};
+
 // A tool that a program declares itself (CUTTER/, a tool comment) or that a tool table contains. Numbers are
 // 0 where they are not given.
 struct DeclaredTool {
@@ -69,7 +74,9 @@ struct DeclaredTool {
     // keys.
     std::string kind{};
     double tip_mm = 0, point_deg = 0, taper_deg = 0, side_mm = 0, height_mm = 0, neck_mm = 0;
-    double edge_mm = 0;  // length of the cutting edges, `length_mm` of a job's cutter
+    double edge_mm = 0;                    // length of the cutting edges, `length_mm` of a job's cutter
+    double stickout_mm = 0, shank_mm = 0;  // from the tip to the holder's face; diameter of the shank
+    std::vector<DeclaredStep> holder{};    // from its face up; empty: not given
 };
 
 // The stock that a program declares itself (BLK FORM).

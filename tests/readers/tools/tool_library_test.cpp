@@ -62,6 +62,35 @@ TEST(ToolLibrary, of_fusion_gives_sizes_in_the_unit_of_each_tool) {
     EXPECT_EQ(bull.edge_mm, 26);
 }
 
+TEST(ToolLibrary, of_fusion_gives_stick_out_shank_and_holder) {
+    const auto with = [](const std::string& holder) {
+        return read(
+            R"({"data": [{"type": "flat end mill", "unit": "inches", "geometry": {"DC": 0.5, "LCF": 1, "LB": 2,
+            "SFDM": 0.375, "NOF": 2}, "post-process": {"number": 1}, "holder": )" +
+            holder + "}]}");
+    };
+    // From the tool up; and the same listed from the spindle down, in a unit of its own.
+    const ToolTable up = with(R"({"segments": [{"height": 1, "lower-diameter": 0.8, "upper-diameter": 1.2},
+        {"height": 2, "lower-diameter": 1.2, "upper-diameter": 2}]})");
+    const ToolTable down = with(R"({"unit": "millimeters", "segments":
+        [{"height": 50.8, "lower-diameter": 30.48, "upper-diameter": 50.8},
+         {"height": 25.4, "lower-diameter": 20.32, "upper-diameter": 30.48}]})");
+    for (const ToolTable* table : {&up, &down}) {
+        ASSERT_EQ(table->tools.size(), 1u);
+        const motion::DeclaredTool& tool = table->tools[0];
+        EXPECT_NEAR(tool.stickout_mm, 50.8, 1e-12);
+        EXPECT_NEAR(tool.shank_mm, 9.525, 1e-12);
+        ASSERT_EQ(tool.holder.size(), 2u);
+        EXPECT_NEAR(tool.holder[0].diameter_mm, 30.48, 1e-12);
+        EXPECT_NEAR(tool.holder[0].length_mm, 25.4, 1e-12);
+        EXPECT_NEAR(tool.holder[1].diameter_mm, 50.8, 1e-12);
+        EXPECT_NEAR(tool.holder[1].length_mm, 50.8, 1e-12);
+    }
+    EXPECT_TRUE(with(R"({"segments": [{"height": 0, "lower-diameter": 1}]})").tools[0].holder.empty());
+    EXPECT_EQ(find(read(kFusion), 3)->stickout_mm, 40);
+    EXPECT_EQ(find(read(kFusion), 4)->stickout_mm, 0);
+}
+
 TEST(ToolLibrary, says_which_entries_it_cannot_use) {
     const ToolTable table = read(kFusion);
     EXPECT_TRUE(warns(table, "T99 (touch) is not used: a probe mills nothing"));

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Tool libraries in JSON: Fusion (.json, and .tools when unpacked) and single tool bits of FreeCAD (.fctb).
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "base/limits.hpp"
 #include "readers/tools/folded_text.hpp"
 #include "readers/tools/library/libraries.hpp"
 
@@ -11,6 +13,7 @@ namespace tribo::readers {
 namespace {
 
 constexpr double kInch = 25.4;
+constexpr std::size_t kMostHolderSteps = 100;  // as in a job
 
 // Reads numbers of the children of a node; 0 where they are absent.
 class Sizes {
@@ -43,8 +46,36 @@ class Sizes {
     double unit_mm_;
 };
 
+// The steps of a holder, from its face up. A cone counts as a cylinder of its larger diameter.
+std::vector<motion::DeclaredStep> holder_steps(const Document& document, const DocumentNode* holder,
+                                               double unit_mm) {
+    const DocumentNode* segments = holder == nullptr ? nullptr : document.child(*holder, "segments");
+    if (segments == nullptr || !segments->is_array || segments->children.size() > kMostHolderSteps) return {};
+    std::vector<motion::DeclaredStep> steps;
+    std::vector<double> lower_mm, upper_mm;
+    for (const std::uint32_t place : segments->children) {
+        const Sizes segment(document, &document.nodes[place], unit_mm);
+        lower_mm.push_back(segment.length("lower-diameter"));
+        upper_mm.push_back(segment.length("upper-diameter"));
+        const motion::DeclaredStep step{std::max(lower_mm.back(), upper_mm.back()), segment.length("height")};
+        if (!kLimits.holder.range.contains(step.diameter_mm) ||
+            !kLimits.holder.range.contains(step.length_mm))
+            return {};
+        steps.push_back(step);
+    }
+    // The list begins at the tool, unless its diameters meet only from the spindle on.
+    std::size_t up = 0, down = 0;
+    for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+        up += upper_mm[i] == lower_mm[i + 1] ? 1 : 0;
+        down += lower_mm[i] == upper_mm[i + 1] ? 1 : 0;
+    }
+    if (down > up) std::reverse(steps.begin(), steps.end());
+    return steps;
+}
+
 // The codes are those of ISO 13399 where it has one: DC diameter, RE corner radius, SIG point angle, LCF
-// length of the edges, NOF flutes; TA is the angle of the side to the axis.
+// length of the edges, LB length below the holder, SFDM diameter of the shank, NOF flutes; TA is the angle of
+// the side to the axis.
 void add_fusion_tool(const Document& document, const DocumentNode& entry, LibraryTools& tools) {
     LibraryTool tool;
     tool.line = entry.line;
@@ -88,6 +119,13 @@ void add_fusion_tool(const Document& document, const DocumentNode& entry, Librar
     if (sizes.shape == ToolShape::lollipop)
         sizes.neck_mm = geometry.first_length({"shoulder-diameter", "SFDM"});
     if (const double length = geometry.length("assemblyGaugeLength"); length > 0) tool.length_mm = length;
+    tool.stickout_mm = geometry.length("LB");
+    tool.shank_mm = geometry.length("SFDM");
+    if (const DocumentNode* holder = document.child(entry, "holder")) {
+        const bool is_inch = folded(document.text(*holder, "unit")).starts_with("IN");
+        const bool has_unit = document.child(*holder, "unit") != nullptr;
+        tool.holder = holder_steps(document, holder, !has_unit ? unit_mm : is_inch ? kInch : 1);
+    }
     tools.add(std::move(tool));
 }
 
@@ -137,6 +175,7 @@ void add_freecad_tool(const Document& document, const DocumentNode& entry, Libra
         sizes.corner_mm = 0.5 * (sizes.diameter_mm - flat_mm);
     sizes.tip_mm = parameter.length("TipDiameter");
     sizes.neck_mm = parameter.length("NeckDiameter");
+    tool.shank_mm = parameter.length("ShankDiameter");
     sizes.flutes = std::max(parameter.count("Flutes"), attribute.count("Flutes"));
     const double angle_deg = parameter.plain("CuttingEdgeAngle");
     switch (sizes.shape) {

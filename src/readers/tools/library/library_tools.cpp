@@ -53,6 +53,12 @@ void LibraryTools::add(LibraryTool tool) {
     }
     if (tool.length_mm && kLimits.tool_length.range.contains(*tool.length_mm))
         declared.length_mm = tool.length_mm;
+    if (kLimits.shank_diameter.range.contains(tool.shank_mm)) declared.shank_mm = tool.shank_mm;
+    // A stick-out within the edges is none.
+    if (kLimits.stickout.range.contains(tool.stickout_mm) && tool.stickout_mm >= declared.edge_mm) {
+        declared.stickout_mm = tool.stickout_mm;
+        declared.holder = std::move(tool.holder);
+    }
     const bool has_number = tool.number && *tool.number > 0 &&
                             kLimits.tool_number.range.contains(static_cast<double>(*tool.number));
     if (!has_number) {

@@ -21,6 +21,8 @@ struct LibraryTool {
     int line = 0;
     ToolSizes sizes;
     std::optional<double> length_mm;  // from the spindle nose to the tip
+    double stickout_mm = 0, shank_mm = 0;
+    std::vector<motion::DeclaredStep> holder;  // from its face up
 };
 
 class LibraryTools {
