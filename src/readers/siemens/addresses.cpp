@@ -258,6 +258,14 @@ Result<void> Interpreter::take_address(Cursor& in, const std::string& name, Amou
         (name == "RP" ? words.polar_radius : words.polar_angle) = amount;
         return {};
     }
+    if (name == "OFFN") {
+        const double mm = amount.value * unit_mm_;
+        if (auto good = path_.in_range(kLimits.coordinate, mm, place(amount.column)); !good) return good;
+        if (mm < 0) return in.refuse(at, "OFFN is negative", "write a contour that is larger");
+        if (side_ != 0) return in.refuse(at, "OFFN within radius compensation", "write G40 before it");
+        contour_offset_mm_ = mm;
+        return {};
+    }
     if (name == "RNDM") {
         const double mm = amount.value * unit_mm_;
         if (auto good = path_.in_range(kLimits.coordinate, mm, place(amount.column)); !good) return good;

@@ -93,7 +93,7 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
         if (side != 0) {
             const auto known = cutter_radius(where, "radius compensation");
             if (!known) return std::unexpected(known.error());
-            radius_mm = *known;
+            radius_mm = *known + contour_offset_mm_ * scale;
         }
         contour_.open(to_plane(path_.tip()), side, radius_mm, side != 0);
     }

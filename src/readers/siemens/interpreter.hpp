@@ -297,9 +297,10 @@ class Interpreter : private SystemValues {
     double feed_ = 0;  // as written, for G93 and G95; 0: none
     int side_ = 0;     // G41 +1, G42 -1, G40 0
     double modal_rounding_mm_ = 0;
-    std::optional<Vec3> pole_;  // in the frame
-    Vec3 tangent_;              // at the end of the last move, in the frame; 0: none
-    std::size_t left_out_ = 0;  // moves that begin where only the machine knows
+    double contour_offset_mm_ = 0;  // OFFN: what G41 and G42 keep from the contour beside the radius
+    std::optional<Vec3> pole_;      // in the frame
+    Vec3 tangent_;                  // at the end of the last move, in the frame; 0: none
+    std::size_t left_out_ = 0;      // moves that begin where only the machine knows
     int left_out_line_ = 0;
 
     std::map<int, motion::WorkFrame> offsets_;  // that the program sets itself, by their G code

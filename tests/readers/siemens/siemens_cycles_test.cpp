@@ -229,6 +229,18 @@ TEST(SiemensCycles, FollowsContours) {
     EXPECT_NEAR(outline(cycled) - 4, outline(plain), 1e-9);  // both come along a line of 7 mm
 }
 
+TEST(SiemensCycles, KeepsAnOffsetFromTheContour) {
+    const std::string square = "G0 X-20 Y-20 Z-4\nG1 G41 X0 Y0\nY50\nX50\nY0\nX0\nG40 X-20 Y-20\n";
+    GcodeOptions wider;
+    wider.tools = {{1, 12}};
+    const motion::Program expected = siemens("F100\n" + square, wider);
+    const motion::Program program = milled("OFFN=1\n" + square + "OFFN=0\n" + square);
+    ASSERT_EQ(program.moves.size(), 2 * expected.moves.size() - 1);
+    for (std::size_t k = 0; k < expected.moves.size(); ++k)
+        expect_near(program.moves[k].end.tip_mm, expected.moves[k].end.tip_mm, 1e-12);
+    expect_near(program.moves.back().end.tip_mm, {-20, -20, -4}, 1e-12);
+}
+
 TEST(SiemensCycles, MillsThreadsWithOneTooth) {
     for (const char* kind : {"2", "22", "112", "122"}) {
         const motion::Program thread =
