@@ -22,6 +22,7 @@
 #include "readers/gcode/text/fanuc_variables.hpp"
 #include "readers/gcode/text/lexer.hpp"
 #include "readers/gcode/text/parameters.hpp"
+#include "readers/gcode/text/tool_vectors.hpp"
 
 namespace tribo::readers {
 namespace gcode {
@@ -37,6 +38,13 @@ class ProgramReader {
         output_.text = bytes;
         state_.unit_mm = mm_per(options.default_unit);
         state_.retract_to_r = options.dialect == GcodeDialect::linuxcnc;
+        if (!writes_tool_vectors(bytes)) return;
+        state_.rotary.vectors = state_.rotary.by_length_code = true;
+        state_.rotary.tip_control = output_.machine.has_value();
+        output_.warn(
+            0,
+            "I, J and K beside G0 and G1 have the length 1: they are taken as the tool's axis, from the "
+            "tip to the shank, as with G43.5");
     }
 
     Result<motion::Program> read() {

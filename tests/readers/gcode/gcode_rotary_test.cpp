@@ -53,6 +53,28 @@ Vec3 unturned(Vec3 p, double a, double c) {
     return {std::cos(c) * q.x + std::sin(c) * q.y, -std::sin(c) * q.x + std::cos(c) * q.y, q.z};
 }
 
+// A program without G43.5 whose I J K all have the length 1.
+TEST(GcodeRotary, TakesVectorsOfLengthOneAsTheToolsAxis) {
+    const std::string text =
+        "G0 X1 Y2 Z3 I0 J0 K1\nG1 X2 I0.6 J0 K0.8 F100\nX3 I-0.577 J0.577 K0.577\nX4 Y5\n";
+    const motion::Program program = program_of(text);
+    ASSERT_EQ(program.moves.size(), 3U);
+    expect_near(program.moves[0].end.axis, {0.6, 0, 0.8});
+    expect_near(program.moves[1].end.axis, normalized(Vec3{-1, 1, 1}), 1e-12);
+    expect_near(program.moves[2].end.axis, program.moves[1].end.axis);
+    EXPECT_TRUE(warns_of(program, 0, "as with G43.5"));
+    // Two blocks, another length, an arc, or one of the three missing are no sign.
+    for (const char* other : {"G0 X1 Y2 Z3 I0 J0 K1\nG1 X2 I0.6 J0 K0.8 F100\n",
+                              "G0 X1 Y2 Z3 I0 J0 K1\nG1 X2 I0.6 J0 K0.8 F100\nX3 I1 J1 K0\n",
+                              "G0 X1 Y2 Z3 I0 J0 K1\nG1 X2 I0.6 J0 K0.8 F100\nX3 I0 J1 K0\nG2 X5 I1 J0\n",
+                              "G0 X1 Y2 Z3 I0 J0 K1\nG1 X2 I0.6 J0 K0.8 F100\nX3 I0 J1\n"}) {
+        const auto refused = read_gcode(other);
+        ASSERT_FALSE(refused.has_value()) << other;
+        EXPECT_NE(refused.error().cause.find("without an arc to use it"), std::string::npos)
+            << refused.error().text();
+    }
+}
+
 TEST(GcodeRotary, WithoutTipControlTurnsThePartUnderTheTool) {
     const motion::Program program =
         on("xyzac-trt", "G21 G0 X0 Y0 Z50\nA30 C40\nG1 X10 Y-20 Z5 F100\nG2 X20 Y-10 I10 J0\n");
