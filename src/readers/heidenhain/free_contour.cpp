@@ -19,6 +19,7 @@ using Of = FreeCondition::Of;
 
 constexpr std::size_t kMostUnknowns = 10;
 constexpr std::size_t kMostBranches = 64;
+constexpr std::size_t kMostOpenSenses = 2;  // arcs without DR that are worked out together
 constexpr int kMostSteps = 80;
 // Statements of a drawing have three or four decimals: what they contradict each other by, mm.
 constexpr double kFitMm = 5e-3;
@@ -397,7 +398,8 @@ bool FreeContour::Group::find(std::vector<Branch>& found) {
     for (std::size_t i = 0; i < turning_.size(); ++i) {
         if (contour_.elements_[first_ + i].is_arc && turning_[i] == 0) open.push_back(i);
     }
-    const std::size_t senses = std::size_t{1} << std::min<std::size_t>(open.size(), 4);
+    if (open.size() > kMostOpenSenses) return false;
+    const std::size_t senses = std::size_t{1} << open.size();
     const std::size_t n = unknowns_.size();
     const std::size_t starts = n == 0 ? 1 : std::size_t{48} << std::min<std::size_t>(n, 3);
     std::vector<std::vector<FreePiece>> fitting;
