@@ -54,6 +54,8 @@ export class MillPage {
           ).responseBodySize,
       });
     });
+    // Not the first visit, which begins with the film.
+    await page.addInitScript(() => localStorage.setItem("tribo.film", "seen"));
     // What goes to the loudspeaker also goes to a meter.
     await page.addInitScript(() => {
       const nodes = AudioNode.prototype as unknown as { connect(this: AudioNode, to: AudioNode): AudioNode };

@@ -8,6 +8,7 @@ import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
 import type { ChipMark } from "./sight/heat_map.js";
 import { ChatterPanel } from "./panels/chatter.js";
+import { Film } from "./film/film.js";
 import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
 import { fileName, listenToKeep } from "./keep/keep.js";
@@ -142,6 +143,9 @@ let arriving: Moment | undefined;
 let plots: Plots | undefined;
 let begun = false;
 let felt = false;
+// To feel the part.
+const FEEL_IT = "Press on the part to feel it";
+let invitation = FEEL_IT;
 let first = true;
 let stopped = false;
 let forceLimit = 3;
@@ -194,7 +198,7 @@ function show(state: StateFrame): void {
   shown = state;
   numbers.show(state, history.rowAt(state.time));
   milled = state.milled;
-  if (finger.enabled && begun && !felt) advise("Press on the part to feel it");
+  if (finger.enabled && begun && !felt) advise(invitation);
   // At last: a source may answer at once.
   if (before) stopAtCollision(before.time, state.time);
 }
@@ -315,10 +319,12 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
 
 // Changes the source. The picture restarts with its first frames.
 function change(to: () => Source): void {
+  film.skip();
   source?.close();
   begun = false;
   first = true;
   chatterOffered = false;
+  invitation = FEEL_IT;
   asWritten = undefined;
   finger.enabled = false;
   element("feel").hidden = true;
@@ -413,6 +419,44 @@ async function open(files: { name: string; file: File }[]): Promise<void> {
   else await mill(wanted.order);
 }
 
+// ---- The film
+const film = new Film(
+  {
+    scene,
+    get state() {
+      return shown;
+    },
+    get duration() {
+      return duration;
+    },
+    get rows() {
+      return history.rows;
+    },
+    send: (command) => source?.send(command),
+    colour: (by) => colours.choose(by),
+    glow(on) {
+      program.glow(on ? (verdict.worst?.line ?? 0) : 0);
+      element("verdict").classList.toggle("glowing", on);
+    },
+  },
+  {
+    hear,
+    direct(on) {
+      transport.directed = on;
+      if (!on) transport.tell();
+    },
+    rewind() {
+      seek(0);
+      scene.fit();
+    },
+    invite() {
+      felt = false;
+      advise((invitation = "Rub it, or drop a job of your own here"));
+    },
+    say,
+  },
+);
+
 // ---- Begin, problems
 begin.addEventListener("click", () => transport.toggle());
 function goToProblem(): void {
@@ -497,7 +541,9 @@ element("more-lanes").addEventListener("click", () => {
 // Panels leave the rest of the window to the part.
 scene.keepFree(() => {
   const { x, y, width, height } = element("stage").getBoundingClientRect();
-  return { x, y, width, height };
+  // Before the film the panels are away, and its buttons lie below the part.
+  if (document.body.dataset.film !== "prelude") return { x, y, width, height };
+  return { x: 0, y, width: innerWidth, height: element("film-buttons").getBoundingClientRect().top - y };
 });
 new ResizeObserver(() => scene.centre()).observe(element("stage"));
 toggles("show-plots", "plots", async () => {
@@ -573,7 +619,7 @@ if (!hasEngine) {
     box.hidden = examples.length < 2;
     if (await followLink()) return;
     const why = notice.textContent;
-    await mill(await orderOf(example));
+    if (await mill(await orderOf(example))) film.begin();
     if (why) say(why);
   });
   addEventListener("hashchange", () => void followLink());

@@ -280,7 +280,7 @@ describe.runIf(hasMillPage)("the quiz", () => {
   );
 
   it("says so where the cuts cannot be milled", async () => {
-    const visitor = await mill.browser.newPage();
+    const visitor = await mill.browser.newPage({ reducedMotion: "reduce" });
     await visitor.goto(`${mill.server.root}/mill/`);
     await visitor.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
     await visitor.route("**/mill_sound.wasm", (route) => route.abort());

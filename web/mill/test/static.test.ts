@@ -428,7 +428,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
   it(
     "opens every example of the site",
     async () => {
-      const visitor = await browser.newPage({ viewport: { width: 1000, height: 700 } });
+      const visitor = await browser.newPage({ viewport: { width: 1000, height: 700 }, reducedMotion: "reduce" });
       mill.watch(visitor);
       await visitor.goto(`${server.root}/mill/`);
       await visitor.waitForSelector("#examples button", { timeout: PATIENCE_MS });

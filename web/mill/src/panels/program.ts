@@ -56,6 +56,7 @@ export class Program {
   private times = new Map<number, number>();
   private now = 0;
   private chosen = 0;
+  private glowing = 0;
   private readonly draw = oncePerFrame(() => this.paint());
   // Until then the user reads elsewhere, ms.
   private readsUntil = 0;
@@ -82,7 +83,7 @@ export class Program {
     this.lines = [];
     this.times.clear();
     this.loads.clear();
-    this.now = this.chosen = 0;
+    this.now = this.chosen = this.glowing = 0;
     this.box.hidden = true;
   }
   take({ name, text }: ProgramFrame): void {
@@ -109,6 +110,13 @@ export class Program {
     if (line === this.now) return;
     this.now = line;
     if (performance.now() > this.readsUntil) this.reveal(line);
+    this.draw();
+  }
+
+  // Marks a line, and shows it; 0: none.
+  glow(line: number): void {
+    this.glowing = line;
+    if (line > 0) this.reveal(line);
     this.draw();
   }
 
@@ -154,6 +162,7 @@ export class Program {
         item.dataset.line = String(line);
         item.style.top = `${(line - 1) * LINE_PX}px`;
         item.classList.toggle("chosen", line === this.chosen);
+        item.classList.toggle("glows", line === this.glowing);
         item.ariaSelected = String(line === this.now);
         item.ariaPosInSet = String(line);
         item.ariaSetSize = String(this.lines.length);

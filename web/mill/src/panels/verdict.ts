@@ -89,11 +89,14 @@ export function judge(facts: Facts): Judged {
 
 export class Verdict {
   private before = "";
+  /** The place that it names first. */
+  worst: Place | undefined;
 
   constructor(private readonly go: (place: Place) => void) {}
 
   show(facts: Facts): void {
     const judged = judge(facts);
+    this.worst = judged.places[0];
     const now = JSON.stringify(judged);
     if (now === this.before) return;
     this.before = now;

@@ -22,6 +22,8 @@ import type { Colouring, HeatMap } from "./heat_map.js";
 
 // A point closer to a side of the blank counts as on it, in cells; of engines that do not say what is.
 const ON_BLANK = 1e-3;
+// The box over a part is smaller by this share of its size on each side, so that their sides do not flicker.
+const INSET = 1e-3;
 // A large part is coloured in pieces, ms each, and drawn at intervals, ms.
 const COLOURING_MS = 8;
 const SHOWN_EVERY_MS = 200;
@@ -63,6 +65,7 @@ export class Part {
   private colouring: Colouring = "plain";
   private colouringOn = false;
   private shown = 0;
+  private fill = 0;
   private job: JobFrame | undefined;
 
   constructor(
@@ -85,10 +88,27 @@ export class Part {
     this.uncoloured.clear();
     this.rough.clear();
     this.tellIfExact();
-    const { min, max } = job.blank;
-    this.box.position.set((min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2);
-    this.box.scale.set(max[0] - min[0], max[1] - min[1], max[2] - min[2]);
+    this.fill = 0;
+    this.placeBox(1);
     this.box.visible = true;
+  }
+  // The part is there in place of its box.
+  arrived(): void {
+    this.box.visible = this.fill > 0;
+  }
+  // The box of the blank stands over the part up to a share of its height; 0: not at all.
+  setFill(share: number): void {
+    this.fill = share;
+    this.placeBox(share, INSET);
+    this.arrived();
+  }
+  private placeBox(share: number, inset = 0): void {
+    if (!this.job) return;
+    const { min, max } = this.job.blank;
+    const size = vec3((k) => (max[k] - min[k]) * (1 - 2 * inset));
+    this.box.scale.set(size[0], size[1], Math.max(size[2] * share, 1e-6));
+    const middle = vec3((k) => (min[k] + max[k]) / 2);
+    this.box.position.set(middle[0], middle[1], min[2] + (inset + share / 2) * size[2]);
   }
 
   take(frame: ChunkFrame): void {

@@ -50,6 +50,8 @@ export class Pass {
   private time = 0;
   private at: [number, number] = [0, 0];
   private now: PassShown = "pass";
+  // Share of its height at which the curtain stands.
+  private standing = 1;
 
   constructor() {
     this.group.add(this.lines.group, this.curtain.mesh);
@@ -91,8 +93,14 @@ export class Pass {
     this.choose();
     if (this.now === "none") return;
     const rows = this.rows.slice(...this.at);
-    const share = (row: Row) => row.peakForce / map.largestForce;
+    const share = (row: Row) => (this.standing * row.peakForce) / map.largestForce;
     this.curtain.show(rows, HEIGHT * this.size, share, (row) => map.ofRow(colouring, row));
+  }
+
+  /** The curtain stands at a share of its height. */
+  stand(share: number, map: HeatMap, colouring: Colouring): void {
+    this.standing = share;
+    this.show(this.time, map, colouring);
   }
 
   set shown(shown: PassShown) {

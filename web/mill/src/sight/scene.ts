@@ -47,6 +47,13 @@ const FILLED = 0.86;
 // Share of the part's size that the tool is above it.
 const TOOL_ABOVE = 0.25;
 
+/** The camera looks at `target` from the direction `towards` (unit) at a distance, mm. */
+export interface Pose {
+  target: Vector3;
+  towards: Vector3;
+  distance: number;
+}
+
 /** "auto": fine, until it is too slow. */
 export type Look = "auto" | "fine" | "plain";
 
@@ -57,6 +64,8 @@ export class Scene {
   readonly controls: OrbitControls;
   // All objects of the job, in its millimetres. VR places them on a bench.
   readonly world = new Group();
+  // Tool, pass and overlays: what is not the part.
+  private readonly around = new Group();
   readonly overlays: Overlays;
   readonly heatMap = new HeatMap();
   readonly part: Part;
@@ -127,14 +136,8 @@ export class Scene {
     this.pass = new Pass();
     this.part = new Part(this.material, this.heatMap, () => this.draw());
     this.designed.visible = false;
-    this.world.add(
-      this.light.group,
-      this.part.group,
-      this.designed,
-      this.tool.group,
-      this.pass.group,
-      this.overlays.group,
-    );
+    this.around.add(this.tool.group, this.pass.group, this.overlays.group);
+    this.world.add(this.light.group, this.part.group, this.designed, this.around);
     this.three.add(this.camera, this.world);
     // Prepares graphics memory and shader while the job is loading.
     this.resize();
@@ -210,7 +213,7 @@ export class Scene {
   show(state: StateFrame): void {
     if (!this.job) return;
     // The state frame follows the frames of the part.
-    this.part.box.visible = false;
+    this.part.arrived();
     this.tool.show(state);
     this.pass.show(state.time, this.heatMap, this.colouring);
     this.overlays.showForce(state);
@@ -232,6 +235,22 @@ export class Scene {
   setPass(shown: PassShown): void {
     this.pass.shown = shown;
     this.draw();
+  }
+
+  // Height of the curtain, 0 to 1.
+  setCurtain(share: number): void {
+    this.pass.stand(share, this.heatMap, this.colouring);
+    this.draw();
+  }
+  // Only the part is shown.
+  setBare(on: boolean): void {
+    this.around.visible = !on;
+    this.moved();
+  }
+  // Fills the box of the blank from below, 0 to 1.
+  setFill(share: number): void {
+    this.part.setFill(share);
+    this.moved();
   }
 
   setPalette(palette: Palette): void {
@@ -296,19 +315,32 @@ export class Scene {
   fit(): void {
     if (!this.job) return;
     this.resize();
-    const size = this.extent();
+    this.pose = this.wholePose();
+    this.fitted = true;
+  }
+  wholePose(): Pose {
     const box = this.blank();
-    box.max.z += TOOL_ABOVE * size;
-    const middle = box.getCenter(new Vector3());
+    box.max.z += TOOL_ABOVE * this.extent();
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const free = this.free?.() ?? { x: 0, y: 0, width, height };
     centre(this.camera, width, height, free);
     const share = { width: (FILLED * free.width) / width, height: (FILLED * free.height) / height };
-    const distance = distanceTo(box, VIEW, this.camera, share);
-    this.controls.target.copy(middle);
-    this.camera.position.copy(middle).addScaledVector(VIEW, distance);
+    return {
+      target: box.getCenter(new Vector3()),
+      towards: VIEW.clone(),
+      distance: distanceTo(box, VIEW, this.camera, share),
+    };
+  }
+  get pose(): Pose {
+    const target = this.controls.target.clone();
+    const away = this.camera.position.clone().sub(target);
+    return { target, towards: away.clone().normalize(), distance: away.length() };
+  }
+  set pose({ target, towards, distance }: Pose) {
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(towards, distance);
+    this.fitted = false;
     this.aim();
-    this.fitted = true;
   }
   private aim(): void {
     const size = this.extent();

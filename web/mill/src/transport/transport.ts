@@ -13,6 +13,8 @@ const SAME = 0.1;
 
 export class Transport {
   playing = false;
+  /** The film sets the speed. */
+  directed = false;
   // Play was pressed, and no state says so yet.
   private starts = false;
   private readonly play = element<HTMLButtonElement>("play");
@@ -96,7 +98,7 @@ export class Transport {
     this.showPlaying(state.playing);
     if (!this.scrubbing) this.time.value = String(state.time);
     element("clock").textContent = `${clock(state.time)} / ${clock(this.duration)}`;
-    if (this.skips && state.playing) this.hurryOn(state);
+    if (this.skips && state.playing && !this.directed) this.hurryOn(state);
     else this.showSpeed(state.speed);
     this.showTrueSpeed(state);
     if (this.loops && (state.playing || ended)) this.goBack(state, ended);
@@ -109,7 +111,8 @@ export class Transport {
     if (ended) this.send({ op: "play" });
   }
 
-  private tell(): void {
+  /** The chosen speed, once more. */
+  tell(): void {
     this.send({ op: "speed", value: chosenSpeed(this.speed.value, this.duration) });
   }
 
