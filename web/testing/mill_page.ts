@@ -33,8 +33,8 @@ export class MillPage {
     readonly page: Page,
   ) {}
 
-  /** With the first example, ready to be milled. */
-  static async open(): Promise<MillPage> {
+  /** With the first example, ready to be milled; `lang`: in another language than English. */
+  static async open({ lang = "en" } = {}): Promise<MillPage> {
     const server = await serveFolder(SITE);
     const browser = await launch();
     const page = await browser.newPage({ viewport: { width: 1000, height: 700 } });
@@ -69,7 +69,7 @@ export class MillPage {
         return connect.call(this, to);
       };
     });
-    await page.goto(`${server.root}/mill/`);
+    await page.goto(`${server.root}/mill/${lang === "en" ? "" : `?lang=${lang}`}`);
     await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
     return opened;
   }

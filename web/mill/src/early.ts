@@ -3,6 +3,7 @@
 // the connection to the engine.
 
 import { Connection } from "./sources/connection.js";
+import { loadTexts } from "./texts/texts.js";
 import { element } from "@tribo/ui/dom";
 
 export const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engine"]')?.content !== "none";
@@ -24,4 +25,4 @@ if (hasEngine) {
   }).observe({ type: "resource", buffered: true });
 }
 
-void import("./main.js");
+void loadTexts().then(() => import("./main.js"));

@@ -3,18 +3,19 @@
 
 import * as drop from "./sources/drop.js";
 import { canvas, context, hasEngine, line } from "./early.js";
-import { fileBeside, listed, order as orderOf } from "./sources/examples.js";
+import { offerExamples, order as orderOf } from "./sources/examples.js";
 import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
-import type { ChipMark } from "./sight/heat_map.js";
 import { ChatterPanel } from "./panels/chatter.js";
 import { Film } from "./film/film.js";
 import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
 import { fileName, listenToKeep } from "./keep/keep.js";
-import { changesOf, packedIn, unpack, type Moment } from "./keep/moment.js";
+import { changesOf, type Moment } from "./keep/moment.js";
+import { Reopen, setFragment } from "./keep/reopen.js";
 import { listenToRecord } from "./keep/record.js";
 import { listenToVideo } from "./keep/video.js";
+import { FeelPanel } from "./panels/feel.js";
 import { listenToFiles } from "./sources/file_input.js";
 import { FrameCache } from "./sources/frame_cache.js";
 import { recall, remember } from "./page.js";
@@ -27,14 +28,16 @@ import { Program } from "./panels/program.js";
 import { Verdict } from "./panels/verdict.js";
 import { Colours } from "./panels/colours.js";
 import type { Plots } from "./panels/plots.js";
-import { Assumed, LineList, showFileFault, showServo } from "./panels/readout.js";
+import { Assumed, ChipList, LineList, showFileFault, showServo } from "./panels/readout.js";
 import { readRecording } from "@tribo/protocol/recording";
 import { element, wordsOf } from "@tribo/ui/dom";
 import { Replay } from "./sources/replay.js";
+import { t, word } from "./texts/texts.js";
 import { Scene } from "./sight/scene.js";
 import { Sound } from "./sound/sound.js";
+import { listenToHeadset, pulseHeadset } from "./touch/headset.js";
 import { Transport } from "./transport/transport.js";
-import type { ServerInfo, Settings } from "@tribo/protocol/messages";
+import type { Command, ServerInfo, Settings } from "@tribo/protocol/messages";
 import type { Listener, Source } from "./sources/source.js";
 import type { AuditOfMill } from "@tribo/wasm/audit";
 import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
@@ -46,9 +49,9 @@ const listener: Listener = {
   frame: take,
   info(message: ServerInfo) {
     const name = (message.job ?? "").replace(/^.*\//, "");
-    document.title = name ? `${name} - Tribo` : "Tribo: mill";
+    document.title = name ? `${name} - Tribo` : t("Tribo: mill");
     if (message.job === undefined) {
-      advise("Drop a job with its files, G-code, APT or keyframes here, or press Open");
+      advise(t("Drop a job with its files, G-code, APT or keyframes here, or press Open"));
       element("learn-begin").hidden = false;
     }
     element("job").textContent = name;
@@ -67,15 +70,10 @@ const listener: Listener = {
     settings = s;
     scene.setHelix(s.helix_deg);
     finger.enabled = true;
-    element("feel").hidden = false;
-    element("force-on").setAttribute("aria-pressed", String(s.force));
-    element<HTMLSelectElement>("mode").value = s.mode;
-    stopped = s.stopped;
-    element("stop").textContent = stopped ? "Release" : "Stop";
-    element("stop").setAttribute("aria-pressed", String(stopped));
+    feel.show(s);
   },
   line(there, why) {
-    say(there ? "" : hasEngine && source === engine ? `No line to the engine: ${why}. Trying again.` : why);
+    say(there ? "" : hasEngine && source === engine ? t("No line to the engine: {why}. Trying again.", { why }) : why);
   },
   files({ wrong, warnings }) {
     showFileFault(wrong);
@@ -120,10 +118,12 @@ const collisions = new LineList<CollisionFrame>("collisions", ({ tip, time: at }
   scene.draw();
   seek(at);
 });
-const chips = new LineList<ChipMark>("chips", (mark) => seek(mark.time));
+const chips = new ChipList((mark) => seek(mark.time));
 const finger = new Finger(scene, () => source);
 const assumed = new Assumed();
-const parameters = new Parameters((command) => source?.send(command));
+const send = (command: Command) => source?.send(command);
+const parameters = new Parameters(send);
+const feel = new FeelPanel(send);
 // In the limits of the command.
 const chatter = new ChatterPanel((rpm) => {
   if (!(programmedRpm > 0)) return;
@@ -144,10 +144,9 @@ let plots: Plots | undefined;
 let begun = false;
 let felt = false;
 // To feel the part.
-const FEEL_IT = "Press on the part to feel it";
+const FEEL_IT = word("Press on the part to feel it");
 let invitation = FEEL_IT;
 let first = true;
-let stopped = false;
 let forceLimit = 3;
 let duration = 0;
 let milled = 0;
@@ -177,7 +176,7 @@ function stopAtCollision(before: number, now: number): void {
   const hit = hits.find(({ time }) => time > before && time <= now);
   if (!hit || stoppedAtHit || !transport.pause()) return;
   stoppedAtHit = true;
-  say(`Line ${hit.line}: ${hit.what}. The clock stands; Play goes on.`);
+  say(t("Line {line}: {what}. The clock stands; Play goes on.", { line: hit.line, what: hit.what }));
 }
 
 function show(state: StateFrame): void {
@@ -198,7 +197,7 @@ function show(state: StateFrame): void {
   shown = state;
   numbers.show(state, history.rowAt(state.time));
   milled = state.milled;
-  if (finger.enabled && begun && !felt) advise(invitation);
+  if (finger.enabled && begun && !felt) advise(t(invitation));
   // At last: a source may answer at once.
   if (before) stopAtCollision(before.time, state.time);
 }
@@ -291,7 +290,7 @@ function take(frame: Frame, bytes: ArrayBuffer): void {
         felt = true;
         advise("");
       }
-      xr?.pulse(frame);
+      pulseHeadset(frame);
       scene.draw();
       break;
     case "servo":
@@ -327,8 +326,7 @@ function change(to: () => Source): void {
   invitation = FEEL_IT;
   asWritten = undefined;
   finger.enabled = false;
-  element("feel").hidden = true;
-  element("servo").hidden = true;
+  feel.hide();
   scene.overlays.hideFinger();
   parameters.clear();
   card.show(undefined);
@@ -342,7 +340,7 @@ function change(to: () => Source): void {
 
 async function mill(wanted: Order): Promise<boolean> {
   say("");
-  advise("Reading ...");
+  advise(t("Reading ..."));
   question.close();
   const next = new Workshop(listener);
   const refusal = await next.open(wanted);
@@ -374,30 +372,19 @@ function momentNow(): Moment | undefined {
   const changes = changesOf(asWritten, settings);
   return { order, t_s: history.time, changes, view: scene.view, colouring: colours.now };
 }
-async function openMoment(packed: BlobPart, what: string): Promise<boolean> {
-  try {
-    const moment = await unpack(packed, fileBeside);
+const reopen = new Reopen({
+  now: momentNow,
+  comesAgain: () => source === engine,
+  async open(moment) {
     if (!(await mill(moment.order))) return false;
     arriving = moment;
     for (const { key, value } of moment.changes)
       source?.send(key === "material" ? { op: key, value } : { op: "set", key, value });
     source?.send({ op: "seek", t_s: moment.t_s });
     return true;
-  } catch (error) {
-    say(`${what} cannot be opened: ${wordsOf(error)}.`);
-    return false;
-  }
-}
-async function followLink(): Promise<boolean> {
-  const { hash } = location;
-  const packed = packedIn(hash);
-  if (packed === undefined || !(await openMoment(packed, "The link"))) return false;
-  setFragment(hash);
-  return true;
-}
-function setFragment(fragment: string): void {
-  window.history.replaceState(null, "", location.pathname + location.search + fragment);
-}
+  },
+  say,
+});
 
 function replay(file: JobFile): void {
   try {
@@ -415,7 +402,7 @@ async function open(files: { name: string; file: File }[]): Promise<void> {
   const wanted = drop.sort(await drop.read(files), order);
   if ("refused" in wanted) say(wanted.refused);
   else if ("recording" in wanted) replay(wanted.recording);
-  else if ("moment" in wanted) await openMoment(wanted.moment.bytes, wanted.moment.name);
+  else if ("moment" in wanted) await reopen.openPacked(wanted.moment.bytes, wanted.moment.name);
   else await mill(wanted.order);
 }
 
@@ -432,7 +419,7 @@ const film = new Film(
     get rows() {
       return history.rows;
     },
-    send: (command) => source?.send(command),
+    send,
     colour: (by) => colours.choose(by),
     glow(on) {
       program.glow(on ? (verdict.worst?.line ?? 0) : 0);
@@ -451,7 +438,8 @@ const film = new Film(
     },
     invite() {
       felt = false;
-      advise((invitation = "Rub it, or drop a job of your own here"));
+      invitation = word("Rub it, or drop a job of your own here");
+      advise(t(invitation));
     },
     say,
   },
@@ -471,7 +459,7 @@ async function hear(): Promise<void> {
   try {
     await sound.wake();
   } catch (error) {
-    say(`There is no sound: ${wordsOf(error)}`);
+    say(t("There is no sound: {why}", { why: wordsOf(error) }));
   }
   element("sound").setAttribute("aria-pressed", String(sound.running && !sound.muted));
 }
@@ -484,20 +472,10 @@ sound.muted = recall("muted") === "true";
 if (!Sound.possible) element("sound").hidden = true;
 
 // ---- Look
-listenToLook(scene);
+listenToLook(scene, (to) => void reopen.changeLanguage(to));
 listenToMeasure(scene);
-let chipsListed = "";
-function listChips(): void {
-  const marks = colours.now === "chip" ? scene.heatMap.chipMarks() : [];
-  const said = marks.map((m) => `${m.verdict === "rubbing" ? "rubs" : "overload"}, ${m.chip.toFixed(3)} mm`);
-  const now = marks.map((m, n) => `${m.line} ${said[n]}`).join();
-  if (now === chipsListed) return;
-  chipsListed = now;
-  chips.clear();
-  marks.forEach((mark, n) => chips.add(mark, said[n]!));
-}
 setInterval(() => {
-  listChips();
+  chips.show(colours.now === "chip" ? scene.heatMap.chipMarks() : []);
   element("next-problem").hidden = lanes.problemAfter(history.time) === undefined;
   verdict.show({
     collisions: hits,
@@ -508,16 +486,6 @@ setInterval(() => {
     whole: milled >= duration - 1e-3,
   });
 }, 500);
-
-// ---- Feel
-element("force-on").addEventListener("click", () => {
-  const on = element("force-on").getAttribute("aria-pressed") !== "true";
-  source?.send({ op: "force", value: on });
-});
-element("stop").addEventListener("click", () => source?.send({ op: stopped ? "release" : "stop" }));
-element<HTMLSelectElement>("mode").addEventListener("change", (event) =>
-  source?.send({ op: "mode", value: (event.target as HTMLSelectElement).value as "cut" | "inspect" }),
-);
 
 // ---- Panels
 function toggles(button: string, panel: string, opened?: () => void): void {
@@ -565,25 +533,14 @@ async function openQuiz(): Promise<void> {
     learn ??= new Learn((cut) => void mill(cut));
     learn.open();
   } catch (error) {
-    say(`The quiz does not open: ${wordsOf(error)}`);
+    say(t("The quiz does not open: {why}", { why: wordsOf(error) }));
   }
 }
 for (const id of ["learn", "learn-begin"]) element(id).addEventListener("click", () => void openQuiz());
 
 listenToFiles(open);
 
-// ---- VR, where there is any
-let xr: import("./touch/xr.js").Headset | undefined;
-void navigator.xr?.isSessionSupported("immersive-vr").then((can) => {
-  const button = element<HTMLButtonElement>("vr");
-  button.hidden = !can;
-  button.addEventListener("click", async () => {
-    void hear();
-    const { Headset } = await import("./touch/xr.js");
-    xr ??= new Headset(scene, finger, () => transport.toggle());
-    await xr.enter();
-  });
-});
+listenToHeadset(scene, finger, { hear, play: () => transport.toggle() });
 
 listenToKeys(scene, finger, {
   play: () => transport.toggle(),
@@ -605,22 +562,11 @@ engine?.listen(listener);
 // ---- Without an engine the page mills
 if (!hasEngine) {
   element("learn-begin").hidden = false;
-  void listed().then(async (examples) => {
-    const box = element("examples");
-    for (const example of examples) {
-      const button = document.createElement("button");
-      button.type = "button";
-      button.textContent = example.name;
-      button.addEventListener("click", async () => mill(await orderOf(example)));
-      box.append(button);
-    }
-    const [example] = examples;
-    if (!example) return;
-    box.hidden = examples.length < 2;
-    if (await followLink()) return;
+  void offerExamples(mill).then(async (example) => {
+    if (!example || (await reopen.followLink())) return;
     const why = notice.textContent;
     if (await mill(await orderOf(example))) film.begin();
     if (why) say(why);
   });
-  addEventListener("hashchange", () => void followLink());
+  addEventListener("hashchange", () => void reopen.followLink());
 }

@@ -13,7 +13,8 @@ import { ROOT } from "../../tools/places.js";
 import { load } from "../../wasm/test/load.js";
 import { clipOf, RATE } from "../src/learn/clip.js";
 import { filesOf, FLUTES, JOB_NAME, RIGHT_CUT, spanOf, SPINDLE_RPM, WRONG_CUTS } from "../src/learn/cuts.js";
-import { cellsOf, COLUMNS, hear, type Heard } from "../src/learn/measure.js";
+import { cellsOf, COLUMNS } from "../src/learn/cells.js";
+import { hear, type Heard } from "../src/learn/measure.js";
 import { Round, shuffled } from "../src/learn/quiz.js";
 
 const ALL = [RIGHT_CUT, ...WRONG_CUTS];

@@ -3,6 +3,7 @@
 
 import { element } from "@tribo/ui/dom";
 import { recall, remember } from "../page.js";
+import { t } from "../texts/texts.js";
 import type { Director, Phase, Stage } from "./director.js";
 
 const SEEN = "film";
@@ -72,7 +73,7 @@ export class Film {
       this.director ??= this.open(shots.Director);
       this.director.play(shots[which], performance.now() / 1000);
     } catch {
-      this.actions.say("The film cannot be loaded.");
+      this.actions.say(t("The film cannot be loaded."));
     }
   }
 

@@ -6,6 +6,7 @@ import { hasEngine } from "../early.js";
 import type { History } from "../panels/history.js";
 import type { Scene } from "../sight/scene.js";
 import { clock } from "../page.js";
+import { t } from "../texts/texts.js";
 import { glb } from "./glb.js";
 import { ENDING, fragmentOf, LONGEST_FRAGMENT, pack, type Moment } from "./moment.js";
 import { rowsCsv } from "./rows_csv.js";
@@ -44,7 +45,8 @@ export function listenToKeep(
   );
   element("keep-link").addEventListener("click", () => {
     const moment = momentNow();
-    if (moment) keepMoment(moment, name).catch((error: unknown) => say(`There is no link: ${wordsOf(error)}`));
+    if (moment)
+      keepMoment(moment, name).catch((error: unknown) => say(t("There is no link: {why}", { why: wordsOf(error) })));
   });
 }
 
@@ -56,8 +58,10 @@ async function keepMoment(moment: Moment, name: (ending: string) => string): Pro
   if (fragment === undefined) {
     download(new Blob([(await pack(moment, true)) as BlobPart]), name(ENDING.slice(1)));
     said.textContent = hasEngine
-      ? "Saved as a file: open it here or on a page without an engine."
-      : `Too long for a link (${LONGEST_FRAGMENT} characters at most). Saved as a file: open it here.`;
+      ? t("Saved as a file: open it here or on a page without an engine.")
+      : t("Too long for a link ({most} characters at most). Saved as a file: open it here.", {
+          most: LONGEST_FRAGMENT,
+        });
   }
   link.hidden = fragment === undefined;
   element("link-box").hidden = false;
@@ -68,5 +72,8 @@ async function keepMoment(moment: Moment, name: (ending: string) => string): Pro
     () => true,
     () => false,
   );
-  said.textContent = `${copied ? "Copied" : "To copy"}: ${link.value.length} characters.`;
+  const count = link.value.length;
+  said.textContent = copied
+    ? t("Copied: {count} characters.", { count })
+    : t("To copy: {count} characters.", { count });
 }

@@ -6,6 +6,7 @@
 
 import type { Setting, Settings } from "@tribo/protocol/messages";
 import type { Vec3 } from "@tribo/protocol/vec3";
+import { t, word } from "../texts/texts.js";
 import type { JobFile, Order } from "../sources/workshop.js";
 
 /** Where the camera is, mm. */
@@ -62,7 +63,7 @@ async function through(bytes: BlobPart, transform: CompressionStream | Decompres
     length += value.length;
     if (length > LARGEST) {
       await reader.cancel();
-      throw new TooLarge("it is too large for a page");
+      throw new TooLarge(t("it is too large for a page"));
     }
   }
 }
@@ -102,20 +103,20 @@ function isWritten({ job, part, cell, files, t_s, changes, view, colouring }: Wr
   );
 }
 
-const DAMAGED = "it is damaged, perhaps its end was cut off on the way";
+const DAMAGED = word("it is damaged, perhaps its end was cut off on the way");
 
 async function read(packed: BlobPart): Promise<{ written: Written; rest: Uint8Array }> {
   const all = await through(packed, new DecompressionStream("deflate-raw")).catch((error: unknown) => {
-    throw error instanceof TooLarge ? error : new Error(DAMAGED);
+    throw error instanceof TooLarge ? error : new Error(t(DAMAGED));
   });
   try {
     const length = new DataView(all.buffer).getUint32(0, true);
     const written = JSON.parse(new TextDecoder().decode(all.subarray(4, 4 + length))) as Written;
     if (written.version === VERSION && isWritten(written)) return { written, rest: all.subarray(4 + length) };
   } catch {
-    throw new Error(DAMAGED);
+    throw new Error(t(DAMAGED));
   }
-  throw new Error("it is of another version of this page");
+  throw new Error(t("it is of another version of this page"));
 }
 
 /** Throws if the bytes are not a moment. `beside` gives a file that lies beside the page. */
@@ -127,7 +128,7 @@ export async function unpack(packed: BlobPart, beside: (name: string) => Promise
     files.push(isBeside ? await beside(name) : { name, bytes: rest.slice(at, at + bytes).buffer });
     at += bytes;
   }
-  if (at > rest.length) throw new Error(DAMAGED);
+  if (at > rest.length) throw new Error(t(DAMAGED));
   const { job, part, cell, t_s, changes, view, colouring } = written;
   return { order: { files, job, part, cell }, t_s, changes, view, colouring };
 }

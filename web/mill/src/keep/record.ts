@@ -3,6 +3,7 @@
 
 import { Recorder } from "@tribo/protocol/recording";
 import { download, element } from "@tribo/ui/dom";
+import { t } from "../texts/texts.js";
 import type { FrameCache } from "../sources/frame_cache.js";
 
 /** Listens to its button. Returns what takes each frame. */
@@ -13,11 +14,11 @@ export function listenToRecord(frames: FrameCache): (bytes: ArrayBuffer) => void
     if (!recorder) {
       recorder = new Recorder();
       for (const bytes of frames.replay()) recorder.take(bytes);
-      button.textContent = "Stop and keep";
+      button.textContent = t("Stop and keep");
     } else {
       download(recorder.file(), `${(element("job").textContent ?? "mill").replace(/\.\w+$/, "")}.tribo`);
       recorder = undefined;
-      button.textContent = "Record";
+      button.textContent = t("Record");
     }
     button.setAttribute("aria-pressed", String(recorder !== undefined));
   });

@@ -4,6 +4,8 @@
 import { download, element, wordsOf } from "@tribo/ui/dom";
 import { clock } from "../page.js";
 import type { Scene } from "../sight/scene.js";
+import { fixed } from "../texts/figures.js";
+import { t } from "../texts/texts.js";
 import type { Sound } from "../sound/sound.js";
 import { withLength } from "./webm.js";
 
@@ -57,7 +59,10 @@ export function listenToVideo(scene: Scene, sound: Sound, { wake, name, say }: V
       parts.push(data);
       bytes += data.size;
       if (video.state !== "recording") return;
-      button.textContent = `Stop and keep (${clock((performance.now() - began) / 1000)}, ${(bytes / 1e6).toFixed(1)} MB)`;
+      button.textContent = t("Stop and keep ({time}, {size} MB)", {
+        time: clock((performance.now() - began) / 1000),
+        size: fixed(bytes / 1e6, 1),
+      });
       scene.draw();
       if (bytes > LARGEST_VIDEO) video.stop();
     });
@@ -80,7 +85,7 @@ export function listenToVideo(scene: Scene, sound: Sound, { wake, name, say }: V
     video.start(TOLD_EVERY_MS);
     scene.draw();
     recorder = video;
-    button.textContent = "Stop and keep";
+    button.textContent = t("Stop and keep");
     button.setAttribute("aria-pressed", "true");
   }
 
@@ -92,7 +97,7 @@ export function listenToVideo(scene: Scene, sound: Sound, { wake, name, say }: V
       await begin();
     } catch (error) {
       scene.drawn = undefined;
-      say(`There is no video: ${wordsOf(error)}`);
+      say(t("There is no video: {why}", { why: wordsOf(error) }));
     }
     button.disabled = false;
   });

@@ -6,6 +6,8 @@ import type { Piece, Row } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
 import { oncePerFrame } from "@tribo/ui/frame";
 import { clock } from "../page.js";
+import { fixed, length, lengthUnit, onUnit } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 import { growthColour } from "../sight/chatter_colours.js";
 import { heat } from "../sight/heat.js";
 import { css } from "../sight/legend.js";
@@ -17,7 +19,7 @@ export type Quantity = "force" | "depth" | "chip" | "power" | "multiplier" | "so
 
 interface Lane {
   name: string;
-  unit: string;
+  unit: () => string;
   digits: (value: number) => string;
   // Shown where the lanes are few.
   first?: boolean;
@@ -26,12 +28,12 @@ interface Lane {
 }
 
 const LANES: Record<Quantity, Lane> = {
-  force: { name: "peak force", unit: "N", digits: (v) => v.toFixed(0), first: true, height: 1 },
-  depth: { name: "depth of cut", unit: "mm", digits: (v) => v.toFixed(2), first: true, height: 0.6 },
-  multiplier: { name: "chatter, |mu|", unit: "", digits: (v) => v.toFixed(2), first: true, height: 0.6 },
-  chip: { name: "thickest chip", unit: "mm", digits: (v) => v.toFixed(3), height: 0.6 },
-  power: { name: "spindle power", unit: "W", digits: (v) => v.toFixed(0), height: 0.6 },
-  sound: { name: "sound over the softest", unit: "dB", digits: (v) => v.toFixed(0), height: 0.6 },
+  force: { name: word("peak force"), unit: () => "N", digits: (v) => fixed(v, 0), first: true, height: 1 },
+  depth: { name: word("depth of cut"), unit: lengthUnit, digits: (v) => length(v, 2), first: true, height: 0.6 },
+  multiplier: { name: word("chatter, |mu|"), unit: () => "", digits: (v) => fixed(v, 2), first: true, height: 0.6 },
+  chip: { name: word("thickest chip"), unit: lengthUnit, digits: (v) => length(v, 3), height: 0.6 },
+  power: { name: word("spindle power"), unit: () => "W", digits: (v) => fixed(v, 0), height: 0.6 },
+  sound: { name: word("sound over the softest"), unit: () => "dB", digits: (v) => fixed(v, 0), height: 0.6 },
 };
 const ORDER: Quantity[] = ["force", "depth", "multiplier", "chip", "power", "sound"];
 const EVENT_COLOURS: Record<Event, string> = { damage: "--damage", overload: "--overload", rubbing: "--rubbing" };
@@ -69,6 +71,7 @@ export class Lanes {
     slider.addEventListener("pointermove", ({ offsetX }) => this.point((offsetX / slider.clientWidth) * this.duration));
     slider.addEventListener("pointerleave", () => this.point(undefined));
     new ResizeObserver(() => this.draw()).observe(canvas);
+    onUnit(() => this.draw());
     new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
   }
@@ -272,13 +275,14 @@ export class Lanes {
     const at = this.pointed ?? this.time;
     const { name: words, digits, unit } = LANES[name];
     const bins = this.bins[name];
-    const end = bins.largest > 0 ? `${words}, to ${digits(this.end(name))} ${unit}` : `${words}: none yet`;
+    const said = { lane: t(words), most: `${digits(this.end(name))} ${unit()}`.trim() };
+    const end = bins.largest > 0 ? t("{lane}, to {most}", said) : t("{lane}: none yet", said);
     const paper = this.ink("--card");
-    label(c, end.trim(), 3, top + 10, this.ink("--quiet"), paper);
-    const named = c.measureText(end.trim()).width + 8;
+    label(c, end, 3, top + 10, this.ink("--quiet"), paper);
+    const named = c.measureText(end).width + 8;
     const value = bins.at(at);
     if (Number.isNaN(value)) return;
-    const now = `${digits(value)} ${unit}`.trim();
+    const now = `${digits(value)} ${unit()}`.trim();
     const x = (at / this.duration) * width + 6;
     const wide = c.measureText(now).width;
     label(c, now, x + wide > width ? x - 12 - wide : x, top + (x < named ? 23 : 11), this.ink("--ink"), paper);

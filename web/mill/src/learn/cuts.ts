@@ -2,6 +2,7 @@
 // The cuts of the quiz: one job, and the same job with one thing wrong.
 
 import { withKey } from "../setup/job_text.js";
+import { word } from "../texts/texts.js";
 import type { Order } from "../sources/workshop.js";
 import type { Span } from "./clip.js";
 
@@ -89,8 +90,8 @@ const withProgram = (text: string): Parts => ({ ...RIGHT_PARTS, program: text })
 
 export const RIGHT_CUT: Cut = {
   id: "right",
-  name: "The right cut",
-  why: "Nothing is wrong with it.",
+  name: word("The right cut"),
+  why: word("Nothing is wrong with it."),
   parts: RIGHT_PARTS,
 };
 
@@ -98,44 +99,58 @@ export const RIGHT_CUT: Cut = {
 export const WRONG_CUTS: readonly Cut[] = [
   {
     id: "feed",
-    name: "Feed three times too high",
-    why: "Each tooth takes a chip that is three times as thick. The teeth are louder, and so is the hiss of the chips. The pitch stays, as it follows the spindle.",
+    name: word("Feed three times too high"),
+    why: word(
+      "Each tooth takes a chip that is three times as thick. The teeth are louder, and so is the hiss of the chips. The pitch stays, as it follows the spindle.",
+    ),
     parts: withFeed(3 * FEED_MM_PER_MIN),
   },
   {
     id: "stickout",
-    name: "Tool sticks out half as far again",
-    why: "The longer tool bends more than three times as easily and swings by itself: a tone that is no multiple of the teeth's, and lower than that of a short tool.",
+    name: word("Tool sticks out half as far again"),
+    why: word(
+      "The longer tool bends more than three times as easily and swings by itself: a tone that is no multiple of the teeth's, and lower than that of a short tool.",
+    ),
     parts: withCutter("stickout_mm", 1.5 * STICKOUT_MM),
   },
   {
     id: "rubbing",
-    name: "Edges rub, feed ten times too low",
-    why: "The chip is thinner than the edge is sharp. The edge slides more than it cuts: hum and hiss are weak. It sounds gentle and wears the edge out.",
+    name: word("Edges rub, feed ten times too low"),
+    why: word(
+      "The chip is thinner than the edge is sharp. The edge slides more than it cuts: hum and hiss are weak. It sounds gentle and wears the edge out.",
+    ),
     parts: withFeed(FEED_MM_PER_MIN / 10),
   },
   {
     id: "runout",
-    name: "Tool runs out of true",
-    why: "The tool is 0.06 mm beside the axis of the spindle, so one tooth takes most of the chip. Lower than the tone of the teeth is a new one, that of the turn.",
+    name: word("Tool runs out of true"),
+    why: word(
+      "The tool is 0.06 mm beside the axis of the spindle, so one tooth takes most of the chip. Lower than the tone of the teeth is a new one, that of the turn.",
+    ),
     parts: withCutter("runout_mm", 0.06),
   },
   {
     id: "conventional",
-    name: "Conventional in place of climb milling",
-    why: "A tooth now begins with no chip, slides, and leaves at the thickest. The forces are as large, but the tones of the teeth are softer, and the tool, thrown out of the cut, swings in high tones.",
+    name: word("Conventional in place of climb milling"),
+    why: word(
+      "A tooth now begins with no chip, slides, and leaves at the thickest. The forces are as large, but the tones of the teeth are softer, and the tool, thrown out of the cut, swings in high tones.",
+    ),
     parts: withProgram(program(LEFT, RIGHT, DEPTH_MM)),
   },
   {
     id: "chatter",
-    name: "Chatter, three times too deep",
-    why: "Each tooth cuts the wave that the tooth before has left, and the wave grows: a howl of high tones, near the tool's own, over those of the teeth.",
+    name: word("Chatter, three times too deep"),
+    why: word(
+      "Each tooth cuts the wave that the tooth before has left, and the wave grows: a howl of high tones, near the tool's own, over those of the teeth.",
+    ),
     parts: withProgram(program(RIGHT, LEFT, 3 * DEPTH_MM)),
   },
   {
     id: "dull",
-    name: "Dull edges",
-    why: "The edge pushes three times as hard and cuts no more. The teeth are much louder, and the hiss of the chips is not.",
+    name: word("Dull edges"),
+    why: word(
+      "The edge pushes three times as hard and cuts no more. The teeth are much louder, and the hiss of the chips is not.",
+    ),
     parts: {
       ...RIGHT_PARTS,
       job: Object.entries(EDGE).reduce((text, [key, value]) => withKey(text, "material", key, String(3 * value)), JOB),

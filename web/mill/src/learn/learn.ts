@@ -3,11 +3,12 @@
 
 import "./learn.css";
 import { element } from "@tribo/ui/dom";
+import { t, translate, word } from "../texts/texts.js";
 import type { Order } from "../sources/workshop.js";
 import { RATE } from "./clip.js";
 import { filesOf, FLUTES, JOB_NAME, orderOf, RIGHT_CUT, spanOf, SPINDLE_RPM, WRONG_CUTS, type Cut } from "./cuts.js";
 import type { FromMill, Listened, ToMill } from "./learn_worker.js";
-import { cellsOf, COLUMNS } from "./measure.js";
+import { cellsOf, COLUMNS } from "./cells.js";
 import { Player } from "./player.js";
 import { Round } from "./quiz.js";
 import { drawSpectra } from "./spectra.js";
@@ -44,7 +45,7 @@ const WINDOW = `
   <div class="buttons"><button id="quiz-again" type="button">Again</button></div>
 </section>`;
 
-const EARS = { "quiz-right": "The right cut", "quiz-this": "This cut" } as const;
+const EARS = { "quiz-right": word("The right cut"), "quiz-this": word("This cut") } as const;
 
 /** Rows of cells; the first of a row and all of the first row are heads. */
 function table(rows: (string | HTMLElement)[][]): HTMLTableElement {
@@ -75,11 +76,12 @@ export class Learn {
     this.window.id = "quiz";
     this.window.setAttribute("aria-labelledby", "quiz-title");
     this.window.innerHTML = WINDOW;
+    translate(this.window);
     document.body.append(this.window);
     for (const cut of WRONG_CUTS) {
       const button = document.createElement("button");
       button.type = "button";
-      button.textContent = cut.name;
+      button.textContent = t(cut.name);
       button.addEventListener("click", () => this.answer(cut));
       element("quiz-answers").append(button);
     }
@@ -104,7 +106,7 @@ export class Learn {
     this.window.addEventListener("close", () => this.player.stop());
     new ResizeObserver(() => this.draw()).observe(element("quiz-spectra"));
     this.worker.onmessage = ({ data }: MessageEvent<FromMill>) => this.take(data);
-    this.worker.onerror = ({ message }) => this.take({ why: message || "the script is not there" });
+    this.worker.onerror = ({ message }) => this.take({ why: message || t("the script is not there") });
     for (const cut of [RIGHT_CUT, ...this.round.cuts]) this.ask(cut);
   }
 
@@ -127,7 +129,7 @@ export class Learn {
 
   private take(message: FromMill): void {
     const cut = this.asked.shift();
-    if ("why" in message) this.fault = `The cuts cannot be milled here: ${message.why}.`;
+    if ("why" in message) this.fault = t("The cuts cannot be milled here: {why}.", { why: message.why });
     else if (cut) this.listened.set(cut, message);
     this.showReady();
   }
@@ -184,23 +186,28 @@ export class Learn {
     for (const id of ["quiz-right", "quiz-this"] as const) {
       const button = element<HTMLButtonElement>(id);
       button.disabled = !ready[id];
-      button.textContent = EARS[id];
+      button.textContent = t(EARS[id]);
     }
     const can = ready["quiz-right"] && ready["quiz-this"];
     for (const button of this.buttons) button.disabled = !can || answered;
-    const soFar = answers.length > 0 ? `, ${score} of ${answers.length} right so far` : "";
-    const state = can ? "" : this.fault || " It is being milled ...";
-    element("quiz-count").textContent = `Cut ${number} of ${cuts.length}${soFar}.${state}`;
+    const said = { number, of: cuts.length, score, answers: answers.length };
+    const count =
+      answers.length > 0
+        ? t("Cut {number} of {of}, {score} of {answers} right so far.", said)
+        : t("Cut {number} of {of}.", said);
+    element("quiz-count").textContent = can ? count : `${count} ${this.fault || t("It is being milled ...")}`;
   }
 
   private tell(cut: Cut): void {
     const right = this.round.answers.at(-1) === cut.id;
-    element("quiz-verdict").textContent = `${right ? "Right" : "No, it was"}: ${cut.name.toLowerCase()}.`;
-    element("quiz-why").textContent = cut.why;
-    element("quiz-next").textContent = this.round.number < this.round.cuts.length ? "Next cut" : "Score";
+    element("quiz-verdict").textContent = right
+      ? t("Right: {cut}.", { cut: t(cut.name) })
+      : t("No, it was: {cut}.", { cut: t(cut.name) });
+    element("quiz-why").textContent = t(cut.why);
+    element("quiz-next").textContent = this.round.number < this.round.cuts.length ? t("Next cut") : t("Score");
     const columns = [RIGHT_CUT, cut].map((of) => cellsOf(this.listened.get(of)!.heard));
-    const rows = COLUMNS.map((name, n) => [name, columns[0]![n]!, columns[1]![n]!]);
-    element("quiz-heard").replaceChildren(table([["dB", "right cut", "this cut"], ...rows]));
+    const rows = COLUMNS.map((name, n) => [t(name), columns[0]![n]!, columns[1]![n]!]);
+    element("quiz-heard").replaceChildren(table([["dB", t("right cut"), t("this cut")], ...rows]));
     this.draw();
   }
 
@@ -213,19 +220,19 @@ export class Learn {
 
   private showEnd(): void {
     const { score, cuts, answers } = this.round;
-    element("quiz-score").textContent = `${score} of ${cuts.length} right`;
+    element("quiz-score").textContent = t("{score} of {of} right", { score, of: cuts.length });
     const rows = [RIGHT_CUT, ...WRONG_CUTS].map((cut) => {
       const button = document.createElement("button");
       button.type = "button";
       button.id = `quiz-hear-${cut.id}`;
-      button.textContent = cut.name;
+      button.textContent = t(cut.name);
       button.setAttribute("aria-pressed", "false");
       button.addEventListener("click", () => this.play(cut, button.id));
       const at = cuts.indexOf(cut);
       const said =
-        at < 0 ? "" : answers[at] === cut.id ? "right" : WRONG_CUTS.find(({ id }) => id === answers[at])!.name;
+        at < 0 ? "" : answers[at] === cut.id ? t("right") : t(WRONG_CUTS.find(({ id }) => id === answers[at])!.name);
       return [button as string | HTMLElement, said].concat(cellsOf(this.listened.get(cut)!.heard));
     });
-    element("quiz-all").replaceChildren(table([["cut", "you said", ...COLUMNS], ...rows]));
+    element("quiz-all").replaceChildren(table([[t("cut"), t("you said"), ...COLUMNS.map((name) => t(name))], ...rows]));
   }
 }

@@ -105,22 +105,3 @@ export function hear(samples: Float32Array, rate: number, spindleHz: number, flu
     hiss_db: decibel(sum(Math.ceil(HISS_HZ / bin), powers.length)),
   };
 }
-
-// Tones that are weaker cannot be told from the noise.
-const FAINT_DB = -42;
-
-/** The columns of a table of what is heard. */
-export const COLUMNS = ["level", "tones of the teeth", "tones of the turn", "strongest other tone", "hiss"] as const;
-
-/** A cell for each column, dB. */
-export function cellsOf(heard: Heard): string[] {
-  const level = (db: number) => (db < FAINT_DB ? "none" : db.toFixed(1));
-  const tone = level(heard.tone_db);
-  return [
-    heard.level_db.toFixed(1),
-    level(heard.teeth_db),
-    level(heard.turn_db),
-    tone === "none" ? tone : `${tone} at ${heard.tone_hz.toFixed(0)} Hz`,
-    heard.hiss_db.toFixed(1),
-  ];
-}

@@ -6,6 +6,8 @@ import type { ChartFrame, StateFrame } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
 import { oncePerFrame } from "@tribo/ui/frame";
 import { element } from "@tribo/ui/dom";
+import { fixed, lengthUnit, onUnit, preciseLength, toField } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 
 // As in stability.svg (src/report/chart): a vibration that grows by at most so much in a period.
 const CELLS: [most: number, colour: [number, number, number]][] = [
@@ -14,7 +16,7 @@ const CELLS: [most: number, colour: [number, number, number]][] = [
   [2, [212, 115, 74]],
   [Infinity, [140, 64, 66]],
 ];
-const NOTHING_CUT = "nothing is cut";
+const NOTHING_CUT = word("nothing is cut");
 type Pocket = ChartFrame["pockets"][number];
 
 const LEFT = 34;
@@ -23,8 +25,8 @@ const TOP = 6;
 const BOTTOM = 30;
 
 export function verdict(multiplier: number, hz: number): string {
-  if (!(multiplier > 0)) return "not known here";
-  return multiplier > 1 ? `chatters at ${hz.toFixed(0)} Hz` : "stable";
+  if (!(multiplier > 0)) return t("not known here");
+  return multiplier > 1 ? t("chatters at {hz} Hz", { hz: fixed(hz, 0) }) : t("stable");
 }
 
 // A round number that is about the `ways`th part of a range.
@@ -58,6 +60,10 @@ export class ChatterPanel {
       if (this.pocket) this.turnAt(this.pocket.rpm);
     });
     new ResizeObserver(() => this.draw()).observe(this.canvas);
+    onUnit(() => {
+      this.recommend();
+      this.draw();
+    });
   }
 
   // A new job. What bends is told after it.
@@ -65,7 +71,7 @@ export class ChatterPanel {
     this.box.hidden = true;
     this.chart = this.cells = this.state = this.pocket = undefined;
     this.canvas.hidden = this.best.hidden = true;
-    element("chatter-verdict").textContent = NOTHING_CUT;
+    element("chatter-verdict").textContent = t(NOTHING_CUT);
     element("chatter-number").textContent = this.box.dataset.growth = "";
   }
   open(): void {
@@ -89,8 +95,8 @@ export class ChatterPanel {
       this.recommend();
     }
     const { chatter } = state;
-    const words = !chatter ? NOTHING_CUT : verdict(chatter.multiplier, chatter.hz);
-    const number = chatter && chatter.multiplier > 0 ? chatter.multiplier.toFixed(2) : "";
+    const words = !chatter ? t(NOTHING_CUT) : verdict(chatter.multiplier, chatter.hz);
+    const number = chatter && chatter.multiplier > 0 ? fixed(chatter.multiplier, 2) : "";
     for (const [id, text] of [
       ["chatter-verdict", words],
       ["chatter-number", number],
@@ -110,7 +116,10 @@ export class ChatterPanel {
     this.best.hidden = !this.pocket;
     if (!this.pocket) return;
     const { rpm, depth } = this.pocket;
-    this.best.textContent = `Turn at ${rpm.toFixed(0)} rpm: stable to ${depth.toPrecision(3)} mm`;
+    this.best.textContent = t("Turn at {rpm} rpm: stable to {depth}", {
+      rpm: fixed(rpm, 0),
+      depth: preciseLength(depth, 3),
+    });
   }
 
   private draw(): void {
@@ -149,14 +158,14 @@ export class ChatterPanel {
       line(c, x(rpm), TOP, x(rpm), TOP + height + 4);
       c.fillText(String(Math.round(rpm)), Math.min(x(rpm), LEFT + width - 12), TOP + height + 11);
     }
-    const stepMm = tickStep(most, 5);
+    const stepMm = tickStep(Number(toField(most)), 5) / (Number(toField(most)) / most);
     c.textAlign = "right";
     for (let mm = 0; mm <= most; mm += stepMm) {
       line(c, LEFT - 3, y(mm), LEFT + width, y(mm));
-      c.fillText(String(Number(mm.toPrecision(3))), LEFT - 6, y(mm));
+      c.fillText(String(Number(Number(toField(mm)).toPrecision(3))), LEFT - 6, y(mm));
     }
     c.textAlign = "center";
-    c.fillText("speed, rpm; depth, mm", LEFT + width / 2, TOP + height + 23);
+    c.fillText(t("speed, rpm; depth, {unit}", { unit: lengthUnit() }), LEFT + width / 2, TOP + height + 23);
 
     c.strokeStyle = ink!;
     c.lineWidth = 2;

@@ -6,9 +6,12 @@ import { fitToScreen } from "@tribo/ui/canvas";
 import { element } from "@tribo/ui/dom";
 import { diverging, type Colouring } from "../sight/heat_map.js";
 import { css, showLegend } from "../sight/legend.js";
+import { fixed, fromField, lengthUnit, lengthWords, onUnit, preciseLength, toField } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 import type { Hit } from "../sight/part.js";
 import type { Scene } from "../sight/scene.js";
 
+const CHIP_WORDS = { rubbing: word("rubbing"), overload: word("overload") };
 const HISTOGRAM_BARS = 41;
 const RENEWED_MS = 500;
 
@@ -39,6 +42,7 @@ export class Colours {
   private readonly tolerance = element<HTMLInputElement>("tolerance");
   private readonly histogram = element<HTMLCanvasElement>("histogram");
   private readonly pointed = element("pointed");
+  private toleranceMm = 0.05;
   now: Colouring = "plain";
 
   constructor(
@@ -50,6 +54,8 @@ export class Colours {
     scene.canvas.addEventListener("pointermove", (event) => this.point(event));
     scene.canvas.addEventListener("pointerleave", () => (this.pointed.hidden = true));
     setInterval(() => this.renew(), RENEWED_MS);
+    onUnit(() => this.showUnit());
+    this.showUnit();
   }
 
   choose(name: string): void {
@@ -57,16 +63,26 @@ export class Colours {
     if (!wanted) return;
     const compares = wanted === "deviation" || wanted === "scallop";
     if (compares && !this.scene.hasDesigned) {
-      this.say("The job has no designed surface to compare with: drop its model, or name it under [part].");
+      this.say(t("The job has no designed surface to compare with: drop its model, or name it under [part]."));
       this.choice.value = this.now;
       return;
     }
     this.choice.value = this.now = wanted;
     element("scale-label").hidden = !compares;
     element("tolerance-label").hidden = wanted !== "deviation";
-    const full = Number(this.scale.value);
+    const full = fromField(Number(this.scale.value));
     if (full > 0) this.scene.heatMap.scale.deviation = full;
+    const within = fromField(Number(this.tolerance.value));
+    if (within > 0) this.toleranceMm = within;
     this.scene.setColouring(wanted);
+    this.renew();
+  }
+
+  // The fields keep their lengths.
+  private showUnit(): void {
+    this.scale.value = toField(this.scene.heatMap.scale.deviation);
+    this.tolerance.value = toField(this.toleranceMm);
+    for (const place of document.querySelectorAll("#panel .length-unit")) place.textContent = lengthUnit();
     this.renew();
   }
 
@@ -80,12 +96,15 @@ export class Colours {
 
   private showSpread(): void {
     const range = this.scene.heatMap.scale.deviation;
-    const tolerance = Number(this.tolerance.value);
+    const tolerance = this.toleranceMm;
     const { bars, within, count } = spreadOf(this.scene.part.deviations(), range, tolerance);
     element("within").textContent =
       count > 0
-        ? `${(100 * within).toFixed(1)} % of the machined points within ± ${tolerance} mm`
-        : "nothing is machined yet";
+        ? t("{share} % of the machined points within ± {tolerance}", {
+            share: fixed(100 * within, 1),
+            tolerance: preciseLength(tolerance, 4),
+          })
+        : t("nothing is machined yet");
     const c = this.histogram.getContext("2d");
     const { clientWidth: width, clientHeight: height } = this.histogram;
     if (!c || width === 0) return;
@@ -119,17 +138,24 @@ export class Colours {
 
   private words(hit: Hit): string {
     if (this.now === "deviation" || this.now === "scallop") {
-      if (Number.isNaN(hit.deviation)) return "over 3 mm from the designed surface";
-      const size = Math.abs(hit.deviation).toFixed(3);
-      return hit.deviation < 0 ? `gouge ${size} mm` : `${size} mm left`;
+      if (Number.isNaN(hit.deviation)) return t("over {far} from the designed surface", { far: preciseLength(3, 3) });
+      const size = { length: lengthWords(Math.abs(hit.deviation), 3) };
+      return hit.deviation < 0 ? t("gouge {length}", size) : t("{length} left", size);
     }
     if (this.now === "plain") return "";
-    if (hit.untouched) return "untouched";
+    if (hit.untouched) return t("untouched");
     const row = this.scene.heatMap.rowAt(hit.point);
     if (!row) return "";
-    if (this.now === "force") return `${row.peakForce.toFixed(0)} N, line ${row.line}`;
-    if (this.now === "chip")
-      return `chip ${row.chip.toFixed(3)} mm${row.chipVerdict ? `, ${row.chipVerdict}` : ""}, line ${row.line}`;
-    return row.multiplier > 0 ? `multiplier ${row.multiplier.toFixed(2)}, line ${row.line}` : `line ${row.line}`;
+    const { line } = row;
+    if (this.now === "force") return t("{force} N, line {line}", { force: fixed(row.peakForce, 0), line });
+    if (this.now === "chip") {
+      const chip = t("chip {length}", { length: lengthWords(row.chip, 3) });
+      return [chip, row.chipVerdict && t(CHIP_WORDS[row.chipVerdict]), t("line {line}", { line })]
+        .filter(Boolean)
+        .join(", ");
+    }
+    return row.multiplier > 0
+      ? t("multiplier {mu}, line {line}", { mu: fixed(row.multiplier, 2), line })
+      : t("line {line}", { line });
   }
 }

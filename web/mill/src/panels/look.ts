@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// How the picture looks: theme, colours of the part, fine or plain, and what is drawn beside the part.
+// How the page looks: theme, units and language, colours of the part, fine or plain, and what is drawn beside the part.
 
 import { element } from "@tribo/ui/dom";
 import { recall, remember } from "../page.js";
 import { PALETTES } from "../sight/palette.js";
 import type { PassShown } from "../sight/pass.js";
+import { chooseUnit, type LengthUnit } from "../texts/figures.js";
+import { language } from "../texts/texts.js";
 import type { Look, Scene } from "../sight/scene.js";
 
 // A choice kept between visits.
@@ -20,7 +22,8 @@ function kept(id: string, apply: (value: string) => void): void {
   go();
 }
 
-export function listenToLook(scene: Scene): void {
+/** `speak` is called when another language is chosen. */
+export function listenToLook(scene: Scene, speak: (to: string) => void): void {
   const root = document.documentElement;
   kept("theme", (theme) => {
     if (theme) root.dataset.theme = theme;
@@ -33,5 +36,10 @@ export function listenToLook(scene: Scene): void {
     const box = element<HTMLInputElement>(`show-${what}`);
     box.addEventListener("change", () => scene.setVisible(what, box.checked));
   }
+  kept("units", (unit) => chooseUnit(unit as LengthUnit));
+  const spoken = element<HTMLSelectElement>("language");
+  spoken.value = language;
+  spoken.addEventListener("change", () => speak(spoken.value));
+  element("language-note").hidden = language === "en";
   element("fit").addEventListener("click", () => scene.fit());
 }

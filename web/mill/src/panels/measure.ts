@@ -3,6 +3,8 @@
 
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 import { element } from "@tribo/ui/dom";
+import { length, lengthWords } from "../texts/figures.js";
+import { t } from "../texts/texts.js";
 import type { Scene } from "../sight/scene.js";
 
 export function listenToMeasure(scene: Scene): void {
@@ -15,7 +17,7 @@ export function listenToMeasure(scene: Scene): void {
     ruler.setAttribute("aria-pressed", String(on));
     scene.canvas.classList.toggle("measuring", on);
     measured.hidden = !on;
-    measured.textContent = "Click two places on the part";
+    measured.textContent = t("Click two places on the part");
     scene.overlays.setMeasure([]);
     scene.draw();
   });
@@ -33,7 +35,7 @@ export function listenToMeasure(scene: Scene): void {
       const [a, b] = places;
       if (!a || !b) return;
       const d = vec3((k) => b[k] - a[k]);
-      measured.textContent = `${Math.hypot(...d).toFixed(3)} mm   (x ${d[0].toFixed(3)}, y ${d[1].toFixed(3)}, z ${d[2].toFixed(3)})`;
+      measured.textContent = `${lengthWords(Math.hypot(...d), 3)}   (x ${length(d[0], 3)}, y ${length(d[1], 3)}, z ${length(d[2], 3)})`;
     },
     { capture: true },
   );

@@ -4,6 +4,8 @@
 import type { Row, StateFrame } from "@tribo/protocol/frames";
 import { AUDIT_COLUMNS, LOADS, type Load } from "@tribo/wasm/audit";
 import { element } from "@tribo/ui/dom";
+import { feed, feedUnit, fixed, length, lengthUnit, onUnit, volume, volumeUnit } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 
 function write(id: string, value: string, unit = ""): void {
   const place = element(id);
@@ -20,20 +22,20 @@ function write(id: string, value: string, unit = ""): void {
 export function bandWords(low: number, high: number): string {
   const digits = Math.max(0, Math.floor(Math.log10(Math.max(high - low, 1))) - 1);
   const round = (v: number) => (Math.round(v / 10 ** digits) * 10 ** digits).toFixed(0);
-  return `${round(low)} to ${round(high)}`;
+  return t("{low} to {high}", { low: round(low), high: round(high) });
 }
 
 /** Power at the spindle, W. */
 export const powerOf = ({ torque, rpm }: { torque: number; rpm: number }): number => torque * rpm * (Math.PI / 30);
 
 const LOAD_WORDS: Record<Load, string> = {
-  peak_force_n: "force",
-  peak_torque_nm: "torque",
-  power_w: "power",
-  stress_n_per_mm2: "strength",
-  deflection_mm: "bending",
-  chip_mm: "chip",
-  multiplier: "chatter",
+  peak_force_n: word("of the force limit"),
+  peak_torque_nm: word("of the torque limit"),
+  power_w: word("of the power limit"),
+  stress_n_per_mm2: word("of the strength limit"),
+  deflection_mm: word("of the bending limit"),
+  chip_mm: word("of the chip limit"),
+  multiplier: word("of the chatter limit"),
 };
 
 export interface Share {
@@ -62,6 +64,10 @@ export class Now {
   private highest = 0;
   private again: (() => void) | undefined;
 
+  constructor() {
+    onUnit(() => this.again?.());
+  }
+
   begin(): void {
     this.again = undefined;
     this.shares.clear();
@@ -85,7 +91,7 @@ export class Now {
   // `row` is the cut at the clock.
   show(state: StateFrame, row: Row | undefined): void {
     this.again = () => this.show(state, row);
-    write("peak", state.peakForce.toFixed(0), "N");
+    write("peak", fixed(state.peakForce, 0), "N");
     element("band").hidden = element("band-row").hidden = !this.spreads;
     if (this.spreads) {
       const low = row?.peakLow ?? 0;
@@ -100,19 +106,19 @@ export class Now {
     const share = this.shares.get(state.line);
     element("share-row").hidden = share === undefined;
     if (share) {
-      write("share", `${(100 * share.ratio).toFixed(0)} %`);
-      element("share-row").title = "Of the whole line, at its worst";
-      element("share-of").textContent = `of the ${LOAD_WORDS[share.load]} limit`;
+      write("share", `${fixed(100 * share.ratio, 0)} %`);
+      element("share-row").title = t("Of the whole line, at its worst");
+      element("share-of").textContent = t(LOAD_WORDS[share.load]);
     }
-    write("power", state.cutting ? powerOf(state).toFixed(0) : "0", "W");
-    write("depth", row ? row.depth.toFixed(2) : "0", "mm");
-    write("chip", row && row.chip > 0 ? row.chip.toFixed(3) : "0", "mm");
-    if (state.rapid) write("feed", "rapid");
-    else write("feed", state.feed.toFixed(0), "mm/min");
-    write("removed", (state.removed / 1000).toFixed(2), "cm³");
+    write("power", state.cutting ? fixed(powerOf(state), 0) : "0", "W");
+    write("depth", row ? length(row.depth, 2) : "0", lengthUnit());
+    write("chip", row && row.chip > 0 ? length(row.chip, 3) : "0", lengthUnit());
+    if (state.rapid) write("feed", t("rapid"));
+    else write("feed", feed(state.feed), feedUnit());
+    write("removed", volume(state.removed), volumeUnit());
     write("line", String(state.line));
-    write("force", Math.hypot(...state.force).toFixed(0), "N");
-    write("torque", state.torque.toFixed(2), "Nm");
-    write("spindle", state.rpm.toFixed(0), "rpm");
+    write("force", fixed(Math.hypot(...state.force), 0), "N");
+    write("torque", fixed(state.torque, 2), "Nm");
+    write("spindle", fixed(state.rpm, 0), "rpm");
   }
 }

@@ -2,6 +2,8 @@
 // Sliders for values that can change while milling. All viewers share these values.
 
 import { element } from "@tribo/ui/dom";
+import { precise } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 import type { Command, ServerInfo, Setting, Settings } from "@tribo/protocol/messages";
 
 interface Parameter {
@@ -16,11 +18,11 @@ interface Parameter {
 }
 
 const PARAMETERS: Parameter[] = [
-  { key: "feed_percent", label: "Feed", min: 10, max: 300, unit: "%", box: "parameters" },
-  { key: "spindle_percent", label: "Spindle", min: 10, max: 300, unit: "%", box: "parameters" },
-  { key: "helix_deg", label: "Helix", min: 0, max: 60, unit: "°", box: "parameters" },
-  { key: "force_scale", label: "Force scale", min: 0.001, max: 1, unit: "", log: true, box: "feel-parameters" },
-  { key: "jnd", label: "Table error", min: 0.1, max: 10, unit: "JND", log: true, box: "feel-parameters" },
+  { key: "feed_percent", label: word("Feed"), min: 10, max: 300, unit: "%", box: "parameters" },
+  { key: "spindle_percent", label: word("Spindle"), min: 10, max: 300, unit: "%", box: "parameters" },
+  { key: "helix_deg", label: word("Helix"), min: 0, max: 60, unit: "°", box: "parameters" },
+  { key: "force_scale", label: word("Force scale"), min: 0.001, max: 1, unit: "", log: true, box: "feel-parameters" },
+  { key: "jnd", label: word("Table error"), min: 0.1, max: 10, unit: "JND", log: true, box: "feel-parameters" },
 ];
 
 export class Parameters {
@@ -48,19 +50,19 @@ export class Parameters {
     element("cut").hidden = false;
     for (const [key, show] of this.shown) show(settings[key]);
     if (![...this.material.options].some((o) => o.value === settings.material)) {
-      this.material.prepend(new Option(settings.material || "the job's own", settings.material));
+      this.material.prepend(new Option(settings.material || t("the job's own"), settings.material));
     }
     this.material.value = settings.material;
     element("cases-label").hidden = !settings.has_spread;
     this.cases.checked = (settings.cases ?? 0) > 0;
-    element("case-count").textContent = settings.cases ? `${settings.cases} cases` : "cases";
+    element("case-count").textContent = settings.cases ? t("{count} cases", { count: settings.cases }) : t("cases");
   }
 
   private slider(p: Parameter): HTMLElement {
     const label = document.createElement("label");
     label.className = "parameter";
     const name = document.createElement("span");
-    name.textContent = p.label;
+    name.textContent = t(p.label);
     const value = document.createElement("output");
     const input = document.createElement("input");
     const to = (v: number) => (p.log ? Math.log(v) : v);
@@ -71,7 +73,7 @@ export class Parameters {
     input.step = "any";
     input.id = `set-${p.key}`;
     const say = (v: number) => {
-      value.textContent = `${Number(v.toPrecision(3))} ${p.unit}`;
+      value.textContent = `${precise(v, 3)} ${p.unit}`;
       input.setAttribute("aria-valuetext", value.textContent);
     };
     input.addEventListener("input", () => say(from(Number(input.value))));

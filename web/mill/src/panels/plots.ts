@@ -9,6 +9,8 @@ import type { Row } from "@tribo/protocol/frames";
 import type { History } from "./history.js";
 import { heat } from "../sight/heat.js";
 import type { Sound } from "../sound/sound.js";
+import { lengthUnit, onUnit, toField } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 import { spectrum, turn } from "./turn.js";
 
 const MOST_POINTS = 2000;
@@ -40,10 +42,10 @@ function overTime(history: History, ...values: ((row: Row) => number)[]): uPlot.
 
 const VIEWS: View[] = [
   {
-    name: "Force",
+    name: word("Force"),
     series: [
-      { label: "peak, N", stroke: "#d0342c" },
-      { label: "mean, N", stroke: "#3b82d0" },
+      { label: word("peak, N"), stroke: "#d0342c" },
+      { label: word("mean, N"), stroke: "#3b82d0" },
     ],
     axes: ["s", "N"],
     data: (h) =>
@@ -55,23 +57,23 @@ const VIEWS: View[] = [
     seek: true,
   },
   {
-    name: "One turn",
+    name: word("One turn"),
     series: [
-      { label: "along the feed, N", stroke: "#d0342c" },
-      { label: "to its left, N", stroke: "#3b82d0" },
-      { label: "to the shank, N", stroke: "#b58900" },
+      { label: word("along the feed, N"), stroke: "#d0342c" },
+      { label: word("to its left, N"), stroke: "#3b82d0" },
+      { label: word("to the shank, N"), stroke: "#b58900" },
     ],
-    axes: ["degrees of the spindle", "N"],
+    axes: [word("degrees of the spindle"), "N"],
     data: (h) => {
       const piece = h.piece();
       if (!piece) return [[], [], [], []];
-      const t = turn(piece);
-      return [t.degrees, t.x, t.y, t.z];
+      const one = turn(piece);
+      return [one.degrees, one.x, one.y, one.z];
     },
   },
   {
-    name: "Spectrum",
-    series: [{ label: "force across the axis, N", stroke: "#3b82d0", bars: true }],
+    name: word("Spectrum"),
+    series: [{ label: word("force across the axis, N"), stroke: "#3b82d0", bars: true }],
     axes: ["Hz", "N"],
     data: (h) => {
       const piece = h.piece();
@@ -81,32 +83,32 @@ const VIEWS: View[] = [
     },
   },
   {
-    name: "Engagement",
+    name: word("Engagement"),
     series: [
-      { label: "exit, degrees", stroke: "#d0342c" },
-      { label: "entry, degrees", stroke: "#3b82d0" },
-      { label: "depth, mm", stroke: "#b58900" },
+      { label: word("exit, degrees"), stroke: "#d0342c" },
+      { label: word("entry, degrees"), stroke: "#3b82d0" },
+      { label: word("depth, {unit}"), stroke: "#b58900" },
     ],
-    axes: ["s", "degrees, mm"],
+    axes: ["s", word("degrees, {unit}")],
     data: (h) =>
       overTime(
         h,
         (row) => row.exit * DEG,
         (row) => row.entry * DEG,
-        (row) => row.depth,
+        (row) => Number(toField(row.depth)),
       ),
     seek: true,
   },
 ];
-const CHATTER = "Chatter";
+const CHATTER = word("Chatter");
 VIEWS.push({
   name: CHATTER,
-  series: [{ label: "multiplier, above 1: chatter", stroke: "#d0342c" }],
-  axes: ["s", "growth"],
+  series: [{ label: word("multiplier, above 1: chatter"), stroke: "#d0342c" }],
+  axes: ["s", word("growth")],
   data: (h) => overTime(h, (row) => row.multiplier),
   seek: true,
 });
-const SOUND = "Sound";
+const SOUND = word("Sound");
 
 export class Plots {
   private readonly tabs = document.createElement("div");
@@ -124,7 +126,7 @@ export class Plots {
     private readonly seek: (time: number) => void,
   ) {
     this.tabs.setAttribute("role", "tablist");
-    this.tabs.setAttribute("aria-label", "Plots");
+    this.tabs.setAttribute("aria-label", t("Plots"));
     this.panel.setAttribute("role", "tabpanel");
     this.panel.id = "plot-panel";
     this.panel.tabIndex = 0;
@@ -134,17 +136,18 @@ export class Plots {
       tab.id = `tab-${name.replace(" ", "-").toLowerCase()}`;
       tab.setAttribute("role", "tab");
       tab.setAttribute("aria-controls", this.panel.id);
-      tab.textContent = name;
+      tab.dataset.view = name;
+      tab.textContent = t(name);
       tab.addEventListener("click", () => this.choose(name));
       this.tabs.append(tab);
     }
-    this.chatter = [...this.tabs.children].find((tab) => tab.textContent === CHATTER) as HTMLElement;
+    this.chatter = [...this.tabs.children].find((tab) => (tab as HTMLElement).dataset.view === CHATTER) as HTMLElement;
     this.chatter.hidden = true;
     this.tabs.addEventListener("keydown", (event) => {
       const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
       if (step === 0) return;
       const all = ([...this.tabs.children] as HTMLElement[]).filter((tab) => !tab.hidden);
-      const next = all[(all.findIndex((t) => t.textContent === this.open) + step + all.length) % all.length]!;
+      const next = all[(all.findIndex((tab) => tab.dataset.view === this.open) + step + all.length) % all.length]!;
       next.click();
       next.focus();
     });
@@ -153,6 +156,7 @@ export class Plots {
       this.plot?.setSize(this.size());
       this.dirty = true;
     }).observe(this.panel);
+    onUnit(() => this.choose(this.open));
     this.choose(this.open);
   }
 
@@ -179,7 +183,7 @@ export class Plots {
   private choose(name: string): void {
     this.open = name;
     for (const tab of this.tabs.children) {
-      const on = tab.textContent === name;
+      const on = (tab as HTMLElement).dataset.view === name;
       tab.setAttribute("aria-selected", String(on));
       (tab as HTMLElement).tabIndex = on ? 0 : -1;
       if (on) this.panel.setAttribute("aria-labelledby", tab.id);
@@ -197,8 +201,9 @@ export class Plots {
   private make(view: View): void {
     const ink = getComputedStyle(this.box).getPropertyValue("--ink");
     const faint = getComputedStyle(this.box).getPropertyValue("--line");
+    const unit = lengthUnit();
     const axis = (label: string): uPlot.Axis => ({
-      label,
+      label: t(label, { unit }),
       stroke: ink,
       grid: { stroke: faint, width: 1 },
       ticks: { stroke: faint },
@@ -212,9 +217,9 @@ export class Plots {
         cursor: { drag: { x: true, y: false } },
         axes: view.axes.map(axis),
         series: [
-          { label: view.axes[0] },
+          { label: t(view.axes[0]) },
           ...view.series.map((s) => ({
-            label: s.label,
+            label: t(s.label, { unit }),
             stroke: s.stroke,
             width: 1.5,
             points: { show: false },
@@ -236,7 +241,7 @@ export class Plots {
     const canvas = document.createElement("canvas");
     canvas.className = "spectrogram";
     canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", `Spectrogram of the sound, 0 to ${TOP_HZ / 1000} kHz`);
+    canvas.setAttribute("aria-label", t("Spectrogram of the sound, 0 to {khz} kHz", { khz: TOP_HZ / 1000 }));
     this.panel.append(canvas);
     canvas.width = Math.max(1, Math.round(canvas.clientWidth));
     canvas.height = Math.max(1, Math.round(canvas.clientHeight));
@@ -253,7 +258,7 @@ export class Plots {
       context.clearRect(0, 0, width, height);
       context.fillStyle = getComputedStyle(this.box).getPropertyValue("--quiet");
       context.font = "14px system-ui, sans-serif";
-      context.fillText("The sound is off: press Sound.", 12, 24);
+      context.fillText(t("The sound is off: press Sound."), 12, 24);
       return;
     }
     const levels = new Float32Array(analyser.frequencyBinCount);

@@ -6,6 +6,8 @@ import { element } from "@tribo/ui/dom";
 import { oncePerFrame } from "@tribo/ui/frame";
 import { heat } from "../sight/heat.js";
 import { css } from "../sight/legend.js";
+import { fixed } from "../texts/figures.js";
+import { t } from "../texts/texts.js";
 
 const LINE_PX = 20;
 // At the very time at which a line begins the one before it ends.
@@ -173,7 +175,7 @@ export class Program {
           bar.style.width = `${Math.max(100 * share, 3)}%`;
           bar.style.background = css(heat(share));
           const track = cell("u", "");
-          track.title = `peak force ${this.loads.force(line).toFixed(0)} N`;
+          track.title = t("peak force {force} N", { force: fixed(this.loads.force(line), 0) });
           track.append(bar);
           item.append(track);
         }

@@ -4,6 +4,9 @@
 import type { JobFrame, ServoFrame } from "@tribo/protocol/frames";
 import type { FileFault } from "@tribo/protocol/messages";
 import { element } from "@tribo/ui/dom";
+import type { ChipMark } from "../sight/heat_map.js";
+import { fixed, lengthWords } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 
 const MOST_LISTED = 100;
 
@@ -32,13 +35,13 @@ export class LineList<Place extends { line: number }> {
   }
   add(place: Place, what: string): void {
     if (this.list.childElementCount === MOST_LISTED) {
-      this.rest.textContent = `and ${++this.more} more`;
+      this.rest.textContent = t("and {count} more", { count: ++this.more });
       return;
     }
     const item = document.createElement("li");
     const button = document.createElement("button");
     button.type = "button";
-    button.textContent = `line ${place.line}: ${what}`;
+    button.textContent = t("line {line}: {what}", { line: place.line, what });
     button.addEventListener("click", () => this.go(place));
     item.append(button);
     this.list.append(item);
@@ -46,26 +49,46 @@ export class LineList<Place extends { line: number }> {
   }
 }
 
+/** The lines with chips out of range. */
+export class ChipList {
+  private readonly list: LineList<ChipMark>;
+  private listed = "";
+
+  constructor(go: (mark: ChipMark) => void) {
+    this.list = new LineList<ChipMark>("chips", go);
+  }
+  show(marks: readonly ChipMark[]): void {
+    const said = marks.map(({ verdict, chip }) =>
+      [verdict === "rubbing" ? t("rubs") : t("overload"), lengthWords(chip, 3)].join(", "),
+    );
+    const now = marks.map(({ line }, n) => `${line} ${said[n]}`).join();
+    if (now === this.listed) return;
+    this.listed = now;
+    this.list.clear();
+    marks.forEach((mark, n) => this.list.add(mark, said[n]!));
+  }
+}
+
 export function showServo(frame: ServoFrame): void {
   const list = element("servo");
   list.hidden = false;
   const rows: [string, string][] = [
-    ["rate", `${frame.rate.toFixed(0)} Hz`],
-    ["ticks", String(frame.ticks)],
-    ["late", String(frame.late)],
-    ["lateness p99", `${frame.lateness[1].toFixed(0)} µs`],
-    ["lateness max", `${frame.lateness[3].toFixed(0)} µs`],
-    ["tick p99", `${frame.cpu[1].toFixed(0)} µs`],
-    ["force limit", `${frame.limit.toFixed(1)} N`],
-    ["largest force", `${frame.largest.toFixed(2)} N`],
-    ...(frame.fault ? ([["fault", frame.fault]] as [string, string][]) : []),
+    [word("rate"), `${fixed(frame.rate, 0)} Hz`],
+    [word("ticks"), String(frame.ticks)],
+    [word("late"), String(frame.late)],
+    [word("lateness p99"), `${fixed(frame.lateness[1], 0)} µs`],
+    [word("lateness max"), `${fixed(frame.lateness[3], 0)} µs`],
+    [word("tick p99"), `${fixed(frame.cpu[1], 0)} µs`],
+    [word("force limit"), `${fixed(frame.limit, 1)} N`],
+    [word("largest force"), `${fixed(frame.largest, 2)} N`],
+    ...(frame.fault ? ([[word("fault"), frame.fault]] as [string, string][]) : []),
   ];
   list.replaceChildren(
     ...rows.map(([name, value]) => {
       const row = document.createElement("div");
       const term = document.createElement("dt");
       const said = document.createElement("dd");
-      term.textContent = name;
+      term.textContent = t(name);
       said.textContent = value;
       row.append(term, said);
       return row;
@@ -76,7 +99,7 @@ export function showServo(frame: ServoFrame): void {
 // Shown until the files are good again, also beside other messages.
 export function showFileFault(wrong: FileFault | null): void {
   const place = wrong ? [wrong.file, wrong.line, wrong.column].filter(Boolean).join(":") : "";
-  const parts = wrong ? [[place, wrong.why].filter(Boolean).join(": "), wrong.remedy, "the cut before goes on"] : [];
+  const parts = wrong ? [[place, wrong.why].filter(Boolean).join(": "), wrong.remedy, t("the cut before goes on")] : [];
   element("file-fault").hidden = wrong === null;
   element("file-fault").textContent = parts.filter(Boolean).join("; ");
 }
@@ -94,7 +117,11 @@ export class Assumed {
     const without = job.cutters.filter(({ holder }) => holder.length === 0).map(({ number }) => `T${number}`);
     this.drawn =
       without.length > 0
-        ? [`The job has no holder for ${without.join(", ")}: the one in the picture is not checked.`]
+        ? [
+            t("The job has no holder for {tools}: the one in the picture is not checked.", {
+              tools: without.join(", "),
+            }),
+          ]
         : [];
     this.show();
   }

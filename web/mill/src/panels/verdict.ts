@@ -4,6 +4,8 @@
 import type { CollisionFrame, Row } from "@tribo/protocol/frames";
 import type { AuditOfMill } from "@tribo/wasm/audit";
 import { element } from "@tribo/ui/dom";
+import { fixed, lengthWords } from "../texts/figures.js";
+import { t } from "../texts/texts.js";
 import type { ChipMark } from "../sight/heat_map.js";
 
 export interface Facts {
@@ -33,7 +35,8 @@ export interface Judged {
 }
 
 const MOST_PLACES = 3;
-const lines = (count: number) => (count === 1 ? "1 line" : `${count} lines`);
+const lines = (count: number) => (count === 1 ? t("1 line") : t("{count} lines", { count }));
+const atLine = (line: number, what: string) => t("line {line}: {what}", { line, what });
 const small = (text: string) => `${text[0]!.toLowerCase()}${text.slice(1)}`;
 
 // What the page itself knows.
@@ -41,39 +44,41 @@ function seen({ collisions, chips, strongest, wildest }: Facts): Judged {
   const places: Place[] = [];
   const [hit] = collisions;
   if (hit) {
-    const more = collisions.length > 1 ? `, and ${collisions.length - 1} more` : "";
-    places.push({ kind: "damage", words: `line ${hit.line}: ${hit.what}${more}`, line: hit.line, time: hit.time });
+    const more = collisions.length > 1 ? t(", and {count} more", { count: collisions.length - 1 }) : "";
+    places.push({ kind: "damage", words: `${atLine(hit.line, hit.what)}${more}`, line: hit.line, time: hit.time });
   }
   const chatters = wildest !== undefined && wildest.multiplier > 1;
   if (chatters) {
-    const words = `line ${wildest.line}: chatters most, multiplier ${wildest.multiplier.toFixed(2)}`;
+    const words = atLine(wildest.line, t("chatters most, multiplier {mu}", { mu: fixed(wildest.multiplier, 2) }));
     places.push({ kind: "overload", words, line: wildest.line, time: wildest.time });
   }
   const thick = chips.filter(({ verdict }) => verdict === "overload").sort((a, b) => b.chip - a.chip);
   if (thick[0]) {
-    const words = `line ${thick[0].line}: chip of ${thick[0].chip.toFixed(3)} mm; ${lines(thick.length)} overload a tooth`;
+    const said = { chip: lengthWords(thick[0].chip, 3), lines: lines(thick.length) };
+    const words = atLine(thick[0].line, t("chip of {chip}; {lines} overload a tooth", said));
     places.push({ kind: "overload", words, line: thick[0].line, time: thick[0].time });
   }
   if (strongest) {
-    const words = `line ${strongest.line}: highest load, ${strongest.peakForce.toFixed(0)} N`;
+    const words = atLine(strongest.line, t("highest load, {force} N", { force: fixed(strongest.peakForce, 0) }));
     places.push({ kind: "load", words, line: strongest.line, time: strongest.time });
   }
   const thin = chips.filter(({ verdict }) => verdict === "rubbing").sort((a, b) => a.chip - b.chip);
   if (thin[0]) {
-    const words = `line ${thin[0].line}: the edge rubs, on ${lines(thin.length)}`;
+    const words = atLine(thin[0].line, t("the edge rubs, on {lines}", { lines: lines(thin.length) }));
     places.push({ kind: "rubbing", words, line: thin[0].line, time: thin[0].time });
   }
-  let sentence = "Nothing is cut yet.";
-  if (hit) sentence = "The tool hits what it must not.";
-  else if (chatters) sentence = "The cut chatters.";
-  else if (thick[0]) sentence = "Teeth are overloaded.";
-  else if (strongest) sentence = "No collision, no overloaded tooth.";
+  let sentence = t("Nothing is cut yet.");
+  if (hit) sentence = t("The tool hits what it must not.");
+  else if (chatters) sentence = t("The cut chatters.");
+  else if (thick[0]) sentence = t("Teeth are overloaded.");
+  else if (strongest) sentence = t("No collision, no overloaded tooth.");
   return { sentence, damage: hit !== undefined, places };
 }
 
 export function judge(facts: Facts): Judged {
   const { sentence, damage, places } = seen(facts);
-  const soFar = (text: string) => (facts.strongest && !facts.whole ? `So far, ${small(text)}` : text);
+  const soFar = (text: string) =>
+    facts.strongest && !facts.whole ? t("So far, {verdict}", { verdict: small(text) }) : text;
   const { audit } = facts;
   if (!audit || !facts.strongest) return { sentence: soFar(sentence), damage, places: places.slice(0, MOST_PLACES) };
   // A stress that is over its limit for sure, at the low ends of both bands.

@@ -2,6 +2,8 @@
 // The set-up of the cut, for the mill of the page: the job as a form and as text, milled again as it is changed.
 
 import { download, element } from "@tribo/ui/dom";
+import { feedUnit, fromField, lengthUnit, onUnit, toField } from "../texts/figures.js";
+import { t, word } from "../texts/texts.js";
 import type { SetUp } from "../sources/workshop.js";
 import { entriesOf, quoted, unquoted, withKey, withoutLine, withValue, type Entry } from "./job_text.js";
 
@@ -9,15 +11,15 @@ interface Field {
   table: string;
   key: string;
   label: string;
-  unit?: string;
+  unit?: () => string;
 }
 const NUMBERS: Field[] = [
-  { table: "cutter", key: "diameter_mm", label: "diameter", unit: "mm" },
-  { table: "cutter", key: "flutes", label: "flutes" },
-  { table: "cutter", key: "length_mm", label: "length of edges", unit: "mm" },
-  { table: "cutter", key: "stickout_mm", label: "stick-out", unit: "mm" },
-  { table: "process", key: "spindle_rpm", label: "spindle", unit: "rpm" },
-  { table: "process", key: "feed_mm_per_min", label: "feed", unit: "mm/min" },
+  { table: "cutter", key: "diameter_mm", label: word("diameter"), unit: lengthUnit },
+  { table: "cutter", key: "flutes", label: word("flutes") },
+  { table: "cutter", key: "length_mm", label: word("length of edges"), unit: lengthUnit },
+  { table: "cutter", key: "stickout_mm", label: word("stick-out"), unit: lengthUnit },
+  { table: "process", key: "spindle_rpm", label: word("spindle"), unit: () => "rpm" },
+  { table: "process", key: "feed_mm_per_min", label: word("feed"), unit: feedUnit },
 ];
 const BOX = /^\[\s*\[([^[\]]*)\]\s*,\s*\[([^[\]]*)\]\s*\]$/;
 
@@ -44,12 +46,19 @@ function number(value: string, changed: (value: string) => void): HTMLInputEleme
   return input;
 }
 
+const plain = (raw: string) => raw.replaceAll("_", "");
+const isLength = ({ key }: Field) => /_mm(_per_min)?$/.test(key);
+// `raw` and what is changed are millimetres.
+function lengthField(raw: string, changed: (raw: string) => void): HTMLInputElement {
+  return number(toField(Number(plain(raw))), (value) => changed(String(fromField(Number(value)))));
+}
+
 export function choice(values: string[], now: string, changed: (value: string) => void): HTMLSelectElement {
   const select = document.createElement("select");
   for (const value of values.includes(now) ? values : [now, ...values]) {
     const option = document.createElement("option");
     option.value = value;
-    option.textContent = value || "none";
+    option.textContent = value || t("none");
     select.append(option);
   }
   select.value = now;
@@ -68,6 +77,7 @@ export class SetUpCard {
   /** `run` mills this job in place of the one here; it returns whether it was taken. */
   constructor(private readonly run: (text: string) => Promise<boolean>) {
     this.text.addEventListener("change", () => this.build());
+    onUnit(() => this.build());
     element("mill-again").addEventListener("click", () => void this.again());
     this.back.addEventListener("click", () => void this.goBack());
     element("save-job").addEventListener("click", () => {
@@ -122,7 +132,7 @@ export class SetUpCard {
     if (material && named !== undefined)
       fields.push(
         labelled(
-          "material",
+          t("material"),
           choice(known.materials, named, (to) => put(material)(quoted(to))),
         ),
       );
@@ -131,7 +141,7 @@ export class SetUpCard {
     if (now !== undefined && find("path", "gcode"))
       fields.push(
         labelled(
-          "machine",
+          t("machine"),
           choice(["", ...known.machines], now, (to) =>
             this.change(
               to || !machine ? withKey(text, "path", "machine", quoted(to)) : withoutLine(text, machine.line),
@@ -145,8 +155,8 @@ export class SetUpCard {
     for (const field of NUMBERS)
       for (const entry of entries.filter((e) => e.table === field.table && e.key === field.key)) {
         const which = field.table === "cutter" ? this.cutterName(entries, entry) : "";
-        const input = number(entry.raw.replaceAll("_", ""), put(entry));
-        const shown = labelled(`${which}${field.label}`, input, field.unit);
+        const input = isLength(field) ? lengthField(entry.raw, put(entry)) : number(plain(entry.raw), put(entry));
+        const shown = labelled(`${which}${t(field.label)}`, input, field.unit?.());
         shown.dataset.order = String(field.table === "cutter" ? entry.nth : 1000);
         fields.push(shown);
       }
@@ -165,14 +175,14 @@ export class SetUpCard {
         ends[end]![n] = value;
         put(`[[${ends[0]!.join(", ")}], [${ends[1]!.join(", ")}]]`);
       };
-      const [low, high] = [number(ends[0]![n]!, change(0)), number(ends[1]![n]!, change(1))];
-      low.ariaLabel = `stock from ${axis}`;
-      high.ariaLabel = `stock to ${axis}`;
+      const [low, high] = [lengthField(ends[0]![n]!, change(0)), lengthField(ends[1]![n]!, change(1))];
+      low.ariaLabel = t("stock from {axis}", { axis });
+      high.ariaLabel = t("stock to {axis}", { axis });
       const both = document.createElement("span");
-      both.append(low, " to ", high);
+      both.append(low, ` ${t("to")} `, high, ` ${lengthUnit()}`);
       const row = document.createElement("div");
       row.className = "corner";
-      row.append(`stock ${axis}`, both);
+      row.append(t("stock {axis}", { axis }), both);
       return row;
     });
   }
@@ -180,6 +190,10 @@ export class SetUpCard {
   private cutterName(entries: readonly Entry[], { nth }: Entry): string {
     const mine = (key: string) => entries.find((e) => e.table === "cutter" && e.nth === nth && e.key === key)?.raw;
     const called = mine("number");
-    return called ? `T${called} ` : entries.some((e) => e.table === "cutter" && e.nth > 0) ? `${nth + 1}. cutter ` : "";
+    return called
+      ? `T${called} `
+      : entries.some((e) => e.table === "cutter" && e.nth > 0)
+        ? `${t("{number}. cutter", { number: nth + 1 })} `
+        : "";
   }
 }

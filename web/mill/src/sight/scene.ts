@@ -26,6 +26,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "@tribo/protocol/frames";
 import { vec3 } from "@tribo/protocol/vec3";
 import type { View } from "../keep/moment.js";
+import { t } from "../texts/texts.js";
 import type { Triangles } from "../keep/triangles.js";
 import { Contact } from "./contact.js";
 import { centre, distanceTo, type Free } from "./framing.js";
@@ -435,7 +436,7 @@ export class Scene {
     copy.height = this.canvas.height;
     this.paint(copy.getContext("2d")!);
     return new Promise((resolve, reject) =>
-      copy.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the picture is too large"))), "image/png"),
+      copy.toBlob((blob) => (blob ? resolve(blob) : reject(new Error(t("the picture is too large")))), "image/png"),
     );
   }
   /** Copies what was drawn in this task, as afterwards the browser may have emptied the canvas. */

@@ -3,6 +3,7 @@
 
 import { decodeFrame } from "@tribo/protocol/frames";
 import { SUBPROTOCOL, type Command, type EngineMessage } from "@tribo/protocol/messages";
+import { t } from "../texts/texts.js";
 import type { Listener, Source } from "./source.js";
 
 const RETRY_MS = [250, 500, 1000, 2000];
@@ -55,7 +56,7 @@ export class Connection implements Source {
     };
     socket.onclose = ({ reason }) => {
       if (this.closed) return;
-      this.tell((to) => to.line(false, reason || "the engine does not answer"));
+      this.tell((to) => to.line(false, reason || t("the engine does not answer")));
       setTimeout(() => this.open(), RETRY_MS[Math.min(this.tries++, RETRY_MS.length - 1)]);
     };
     this.socket = socket;

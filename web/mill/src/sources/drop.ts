@@ -2,6 +2,8 @@
 // Dropped or chosen files: returns what to mill, or the reason why nothing can be milled.
 
 import { ENDING } from "../keep/moment.js";
+import { fixed } from "../texts/figures.js";
+import { t } from "../texts/texts.js";
 import type { JobFile, Order } from "./workshop.js";
 
 // A page holds its input several times in memory; the program accepts longer files.
@@ -13,8 +15,10 @@ const PROGRAMS = /\.(ngc|nc|gcode|gc|tap|cnc|mpf|eia|min|h|spf|hnc|apt|cls|cldat
 export type Wanted = { order: Order } | { recording: JobFile } | { moment: JobFile } | { refused: string };
 
 function megabytes(bytes: number): string {
-  return `${(bytes / 1e6).toFixed(0)} MB`;
+  return `${fixed(bytes / 1e6, 0)} MB`;
 }
+
+const namesOf = (files: JobFile[]) => files.map(({ name }) => name).join(", ");
 
 function lastName(path: string): string {
   return path.slice(path.lastIndexOf("/") + 1);
@@ -34,7 +38,7 @@ function lastJobs(jobs: JobFile[]): JobFile[] {
 // The files of one drop or choice, with folders in their names ("bowl/bowl.toml").
 export function sort(files: JobFile[], before: Order | undefined): Wanted {
   const [first] = files;
-  if (!first) return { refused: "there was no file in it" };
+  if (!first) return { refused: t("there was no file in it") };
   const recording = files.find((f) => f.name.endsWith(".tribo"));
   if (recording) return { recording };
   const moment = files.find((f) => f.name.endsWith(ENDING));
@@ -45,12 +49,17 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
   const models = files.filter((f) => MODELS.test(f.name));
   if (jobs.length === 0 && tables.length > 0) {
     return {
-      refused: `each of the ${tables.length} jobs begins with the stock of another; let the first begin with box_mm or mesh`,
+      refused: t("each of the {count} jobs begins with the stock of another; let the first begin with box_mm or mesh", {
+        count: tables.length,
+      }),
     };
   }
   if (jobs.length > 1) {
     return {
-      refused: `there are ${jobs.length} jobs (${jobs.map((f) => f.name).join(", ")}); drop one, with the files that it names`,
+      refused: t("there are {count} jobs ({names}); drop one, with the files that it names", {
+        count: jobs.length,
+        names: namesOf(jobs),
+      }),
     };
   }
   const cell = 0;
@@ -60,14 +69,17 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
   if (job) return { order: { files, job: job.name, part: "", cell } };
   if (programs.length > 1) {
     return {
-      refused: `there are ${programs.length} programs (${programs.map((f) => f.name).join(", ")}); drop one, or a job that names it`,
+      refused: t("there are {count} programs ({names}); drop one, or a job that names it", {
+        count: programs.length,
+        names: namesOf(programs),
+      }),
     };
   }
   if (program) return { order: { files, job: program.name, part: model?.name ?? "", cell } };
   if (model && models.length === 1 && before) {
     return { order: { ...before, files: [...before.files, model], part: model.name } };
   }
-  if (model) return { refused: "a model alone says no path: drop it together with a program" };
+  if (model) return { refused: t("a model alone says no path: drop it together with a program") };
   // Unknown extension: the module examines the contents.
   return { order: { files, job: first.name, part: "", cell } };
 }
@@ -75,7 +87,11 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
 export function tooLarge(files: { name: string; size: number }[]): string {
   const large = files.find((f) => f.size > LARGEST_FILE);
   if (!large) return "";
-  return `${large.name}: ${megabytes(large.size)} are more than a page can hold (${megabytes(LARGEST_FILE)}); try: tribo render, or tribo live, which take it`;
+  return t("{name}: {size} are more than a page can hold ({most}); try: tribo render, or tribo live, which take it", {
+    name: large.name,
+    size: megabytes(large.size),
+    most: megabytes(LARGEST_FILE),
+  });
 }
 
 export async function read(files: { name: string; file: File }[]): Promise<JobFile[]> {

@@ -5,6 +5,8 @@ import type { Row, StateFrame } from "@tribo/protocol/frames";
 import type { Command } from "@tribo/protocol/messages";
 import { element } from "@tribo/ui/dom";
 import { clock, recall, remember } from "../page.js";
+import { precise } from "../texts/figures.js";
+import { t } from "../texts/texts.js";
 import { Loop } from "./loop.js";
 import { chosenSpeed, Hurry, TrueSpeed, WHOLE } from "./speeds.js";
 
@@ -121,7 +123,7 @@ export class Transport {
     if (now === this.playing) return;
     this.playing = now;
     this.trueSpeed.stand();
-    this.play.textContent = now ? "Pause" : "Play";
+    this.play.textContent = now ? t("Pause") : t("Play");
     this.play.setAttribute("aria-pressed", String(now));
     if (!now && this.skips) this.tell();
   }
@@ -148,6 +150,6 @@ export class Transport {
     const really = playing ? this.trueSpeed.add(performance.now() / 1000, time, speed) : undefined;
     const place = element("true-speed");
     place.hidden = really === undefined;
-    if (really !== undefined) place.textContent = `runs at ${really.toPrecision(2)}`;
+    if (really !== undefined) place.textContent = t("runs at {speed}", { speed: precise(really, 2) });
   }
 }

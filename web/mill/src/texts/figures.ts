@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Numbers for the eye: lengths in millimetres or inches, as the user chooses, and the decimal sign of the language. Inside
+// all lengths are millimetres. Forces are newtons in both.
+
+import { recall, remember } from "../page.js";
+import { language } from "./texts.js";
+
+export type LengthUnit = "mm" | "in";
+
+const MM_PER_INCH = 25.4;
+const KEPT = "units";
+let chosen: LengthUnit = recall(KEPT) === "in" ? "in" : "mm";
+const listeners: (() => void)[] = [];
+
+export function chooseUnit(unit: LengthUnit): void {
+  chosen = unit;
+  remember(KEPT, unit);
+  for (const changed of listeners) changed();
+}
+/** Called when another unit is chosen. */
+export function onUnit(changed: () => void): void {
+  listeners.push(changed);
+}
+export const lengthUnit = (): LengthUnit => chosen;
+export const feedUnit = (): string => `${chosen}/min`;
+export const volumeUnit = (): string => (chosen === "in" ? "in³" : "cm³");
+
+/** With so many decimals, and the decimal sign of the language. */
+export function fixed(value: number, decimals: number): string {
+  return local(value.toFixed(decimals));
+}
+/** With so many digits in all. */
+export function precise(value: number, digits: number): string {
+  return local(String(Number(value.toPrecision(digits))));
+}
+const local = (text: string) => (language === "de" ? text.replace(".", ",") : text);
+
+const inUnit = (mm: number) => (chosen === "in" ? mm / MM_PER_INCH : mm);
+/** A length as a number, with the decimals that it has in millimetres: an inch takes one more. */
+export function length(mm: number, decimals: number): string {
+  return fixed(inUnit(mm), chosen === "in" ? decimals + 1 : decimals);
+}
+/** A length with its unit. */
+export function lengthWords(mm: number, decimals: number): string {
+  return `${length(mm, decimals)} ${chosen}`;
+}
+/** A length of which as many digits count as are given. */
+export function preciseLength(mm: number, digits: number): string {
+  return `${precise(inUnit(mm), digits)} ${chosen}`;
+}
+/** A speed, mm/min. */
+export function feed(mmPerMin: number): string {
+  return length(mmPerMin, 0);
+}
+/** A volume, mm3. */
+export function volume(mm3: number): string {
+  return chosen === "in" ? fixed(mm3 / MM_PER_INCH ** 3, 3) : fixed(mm3 / 1000, 2);
+}
+
+/** For fields, which take a decimal point: the value of a length, and the length of a value, mm. */
+export function toField(mm: number): string {
+  return String(chosen === "in" ? Number((mm / MM_PER_INCH).toPrecision(7)) : mm);
+}
+// A digit less, so that a round number of millimetres comes back as one.
+export function fromField(value: number): number {
+  return chosen === "in" ? Number((value * MM_PER_INCH).toPrecision(6)) : value;
+}
