@@ -108,10 +108,8 @@ describe.runIf(hasMillPage)("the page in German", () => {
       await page.setViewportSize({ width: 1280, height: 800 });
       await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
       await mill.until("job.toml", "job");
-      await page.selectOption("#speed", "5");
-      await page.click("#begin");
+      await page.fill("#time", "1000");
       await page.waitForSelector("#collisions:not([hidden])", { timeout: PATIENCE_MS });
-      await mill.until("Die Uhr steht", "notice");
       await page.click("#show-panel");
       await page.waitForSelector("#setup-card:not([hidden])", { timeout: PATIENCE_MS });
       await page.click("#show-plots");
