@@ -42,6 +42,7 @@ import type { Listener, Source } from "./sources/source.js";
 import type { AuditOfMill } from "@tribo/wasm/audit";
 import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
 import { SetUpCard } from "./setup/card.js";
+import { StockHandles } from "./setup/stock_handles.js";
 import { MachineQuestion } from "./setup/machine_question.js";
 import { jobNameOf, withJob } from "./setup/with_job.js";
 
@@ -358,7 +359,11 @@ async function mill(wanted: Order): Promise<boolean> {
 }
 
 // ---- Set-up, of what the page mills itself
-const card = new SetUpCard((text) => (order ? mill(withJob(order, text)) : Promise.resolve(false)));
+const handles = new StockHandles(scene, (box, done) => card.stretch(box, done));
+const card: SetUpCard = new SetUpCard(
+  (text) => (order ? mill(withJob(order, text)) : Promise.resolve(false)),
+  (box) => handles.show(element("panel").hidden ? undefined : box),
+);
 const question = new MachineQuestion((answered) => void mill(answered));
 async function showSetUp(): Promise<void> {
   if (!(source instanceof Workshop) || !order) return card.show(undefined);
@@ -497,6 +502,7 @@ function toggles(button: string, panel: string, opened?: () => void): void {
   });
 }
 toggles("show-panel", "panel", () => void showSetUp());
+element("show-panel").addEventListener("click", () => card.tellStock());
 element("show-program").addEventListener("click", () => {
   const reads = document.body.classList.toggle("reading");
   element("show-program").setAttribute("aria-expanded", String(reads));

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Values in the text of a job are read and changed where they stand, and nothing else is.
-import { describe, expect, it } from "vitest";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { entriesOf, quoted, unquoted, withKey, withoutLine, withValue } from "../src/setup/job_text.js";
+import { boxOf, FACES, middleOf, moved, nearestOnAxis, stepFor, textOf, type Box } from "../src/setup/stock_box.js";
+import { Undo } from "../src/setup/undo.js";
 import { withJob } from "../src/setup/with_job.js";
+import type { Vec3 } from "@tribo/protocol/vec3";
+import { file, PATIENCE_MS } from "../../testing/browser.js";
+import { hasMillPage, JOB as SLOT, MillPage, PROGRAM } from "../../testing/mill_page.js";
 
 const JOB = `# A job
 [stock]   # of it
@@ -73,4 +78,169 @@ describe("the text of a job", () => {
   it("has strings in both kinds of quotes", () => {
     expect(["'a\"b'", '"a\\u00e9\\n"', "3", "[1]"].map(unquoted)).toEqual(['a"b', "a\u00e9\n", undefined, undefined]);
   });
+});
+
+// Numbers between -1 and 1 that are the same in each run (a linear congruential generator, Knuth 1997, 3.3.4).
+function* numbers(): Generator<number> {
+  for (let state = 1; ; state = (Math.imul(state, 1664525) + 1013904223) >>> 0) yield state / 2 ** 31 - 1;
+}
+
+describe("the box of the stock", () => {
+  const BOX: Box = [
+    [0, 0, -6],
+    [30, 16, 0],
+  ];
+  it("is read from its text and written as it was", () => {
+    expect(boxOf("[[0, 0, -6], [30, 16, 0]]")).toEqual(BOX);
+    expect(boxOf("[ [0,0.0,-6.0],[3_0 ,1.6e1,0] ]")).toEqual(BOX);
+    expect(boxOf(textOf(BOX))).toEqual(BOX);
+    for (const text of ["[[0, 0], [1, 1]]", "[[0, 0, 0], [1, 1, a]]", "[[0, 0, ], [1, 1, 1]]", "1", ""])
+      expect(boxOf(text)).toBeUndefined();
+  });
+  it("has a face moved, and nothing else, and stays a box", () => {
+    for (const face of FACES) {
+      const to = middleOf(BOX, face)[face.axis] + (face.end === 0 ? -3 : 3);
+      const other = moved(BOX, face, to, 1);
+      for (const end of [0, 1] as const)
+        for (const axis of [0, 1, 2] as const)
+          expect(other[end][axis]).toBe(end === face.end && axis === face.axis ? to : BOX[end][axis]);
+      const thin = moved(BOX, face, face.end === 0 ? 1000 : -1000, 0.5);
+      expect(thin[1][face.axis] - thin[0][face.axis]).toBeCloseTo(0.5, 12);
+    }
+  });
+  it("moves by a power of ten, a hundredth to a thousandth of its size", () => {
+    for (let size = 1e-2; size < 1e5; size *= 1.7) {
+      expect(size / stepFor(size)).toBeGreaterThanOrEqual(100 * (1 - 1e-9));
+      expect(size / stepFor(size)).toBeLessThan(1000 * (1 + 1e-9));
+      expect(Math.log10(stepFor(size)) % 1).toBeCloseTo(0, 12);
+    }
+  });
+  it("follows the pointer: no place of the axis is nearer to the ray", () => {
+    const next = numbers();
+    const some = () => next.next().value as number;
+    for (let n = 0; n < 500; ++n) {
+      const origin: Vec3 = [100 * some(), 100 * some(), 100 * some()];
+      const point: Vec3 = [50 * some(), 50 * some(), 50 * some()];
+      const towards: Vec3 = [some(), some(), some()];
+      const size = Math.hypot(...towards);
+      const direction: Vec3 = [towards[0] / size, towards[1] / size, towards[2] / size];
+      const axis = (n % 3) as 0 | 1 | 2;
+      const at = nearestOnAxis(origin, direction, point, axis);
+      // Along the axis no place is the nearest.
+      expect(at === undefined).toBe(1 - direction[axis] ** 2 < 1e-3);
+      if (at === undefined) continue;
+      // The distance of a point to the line of the ray, by the cross product.
+      const away = (coordinate: number) => {
+        const d = point.map((v, k) => (k === axis ? coordinate : v) - origin[k]!) as unknown as Vec3;
+        return Math.hypot(
+          d[1] * direction[2] - d[2] * direction[1],
+          d[2] * direction[0] - d[0] * direction[2],
+          d[0] * direction[1] - d[1] * direction[0],
+        );
+      };
+      for (const off of [-1, -0.01, 0.01, 1]) expect(away(at)).toBeLessThan(away(at + off));
+    }
+  });
+});
+
+describe("undo", () => {
+  it("goes back and forward, and forgets what was undone when something new comes", () => {
+    const undo = new Undo("a");
+    expect([undo.canUndo, undo.canRedo, undo.undo(), undo.redo()]).toEqual([false, false, "a", "a"]);
+    for (const state of ["b", "b", "c"]) undo.commit(state);
+    expect([undo.undo(), undo.undo(), undo.undo(), undo.redo()]).toEqual(["b", "a", "a", "b"]);
+    undo.commit("d");
+    expect([undo.canRedo, undo.undo(), undo.undo(), undo.redo(), undo.redo()]).toEqual([false, "b", "a", "b", "d"]);
+  });
+});
+
+describe.runIf(hasMillPage)("the stock in the picture", () => {
+  let mill: MillPage;
+  beforeAll(async () => {
+    mill = await MillPage.open();
+    await mill.page.setViewportSize({ width: 1280, height: 800 });
+    await mill.choose(file("job.toml", SLOT), file("p.nc", PROGRAM));
+    await mill.until("job.toml", "job");
+    await mill.page.click("#show-panel");
+    await mill.page.waitForSelector("#setup-card:not([hidden])", { timeout: PATIENCE_MS });
+    await mill.page.waitForTimeout(500);
+  }, PATIENCE_MS);
+  afterAll(() => mill?.close());
+
+  const text = () => mill.page.inputValue("#job-text");
+  const box = async () => boxOf(/box_mm = (.*)/.exec(await text())![1]!)!;
+  // Handles are blue in a grey picture; their middles are found in it, from the top.
+  const handles = () =>
+    mill.page.evaluate(async () => {
+      const canvas = document.getElementById("scene") as HTMLCanvasElement;
+      await new Promise((drawn) => requestAnimationFrame(drawn));
+      const seen = new Image();
+      seen.src = (window as unknown as { shot: string }).shot;
+      await seen.decode();
+      const copy = document.createElement("canvas");
+      [copy.width, copy.height] = [canvas.clientWidth, canvas.clientHeight];
+      const c = copy.getContext("2d")!;
+      c.drawImage(seen, 0, 0);
+      const { data } = c.getImageData(0, 0, copy.width, copy.height);
+      const places: { x: number; y: number; n: number }[] = [];
+      for (let y = 60; y < copy.height - 170; ++y)
+        for (let x = 260; x < copy.width - 290; ++x) {
+          const at = 4 * (y * copy.width + x);
+          if (data[at + 2]! - data[at]! < 110) continue;
+          const near = places.find((p) => Math.hypot(p.x / p.n - x, p.y / p.n - y) < 14);
+          if (near) [near.x, near.y, near.n] = [near.x + x, near.y + y, near.n + 1];
+          else places.push({ x, y, n: 1 });
+        }
+      return places.filter(({ n }) => n > 60).map(({ x, y, n }) => ({ x: x / n, y: y / n }));
+    });
+  const look = async () => {
+    const shot = `data:image/png;base64,${(await mill.page.screenshot()).toString("base64")}`;
+    await mill.page.evaluate((url) => ((window as unknown as { shot: string }).shot = url), shot);
+    return handles();
+  };
+
+  it(
+    "has a handle on each face; one that is dragged changes its number alone, and undo brings it back",
+    async () => {
+      const { page } = mill;
+      await mill.picture("stock-handles");
+      const places = await look();
+      expect(places.length).toBe(6);
+      const before = await box();
+      expect(before).toEqual([
+        [0, 0, -6],
+        [30, 16, 0],
+      ]);
+      const [top] = places.sort((a, b) => a.y - b.y);
+      await page.mouse.move(top!.x, top!.y);
+      await page.mouse.down();
+      await page.mouse.move(top!.x, top!.y - 25, { steps: 4 });
+      await page.mouse.move(top!.x, top!.y - 50, { steps: 4 });
+      // The finger does not press.
+      expect(await page.getAttribute("#scene", "class")).not.toContain("touching");
+      await page.mouse.up();
+      const after = await box();
+      const changed = [0, 1].flatMap((end) => [0, 1, 2].filter((k) => after[end]![k] !== before[end]![k]));
+      expect(changed.length).toBe(1);
+      await mill.picture("stock-dragged");
+      await page.focus("#scene");
+      await page.keyboard.press("Control+z");
+      expect(await box()).toEqual(before);
+      await page.keyboard.press("Control+Shift+z");
+      expect(await box()).toEqual(after);
+      await page.click("#setup-undo");
+      expect(await box()).toEqual(before);
+      expect(await page.isDisabled("#setup-undo")).toBe(true);
+      await page.click("#setup-redo");
+      await page.click("#mill-again");
+      await page.waitForSelector("#setup-back:not([disabled])", { timeout: PATIENCE_MS });
+      expect(await box()).toEqual(after);
+      // Without the card there are no handles.
+      await page.click("#show-panel");
+      expect(await look()).toEqual([]);
+    },
+    PATIENCE_MS,
+  );
+
+  it("makes no error", () => expect(mill.problems).toEqual([]));
 });

@@ -119,6 +119,6 @@ export class Now {
     write("line", String(state.line));
     write("force", fixed(Math.hypot(...state.force), 0), "N");
     write("torque", fixed(state.torque, 2), "Nm");
-    write("spindle", fixed(state.rpm, 0), "rpm");
+    write("spindle", fixed(state.rpm, 0), t("rpm"));
   }
 }

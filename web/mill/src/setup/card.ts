@@ -5,6 +5,8 @@ import { download, element } from "@tribo/ui/dom";
 import { feedUnit, fromField, lengthUnit, onUnit, toField } from "../texts/figures.js";
 import { t, word } from "../texts/texts.js";
 import type { SetUp } from "../sources/workshop.js";
+import { boxOf, moved, textOf, type Box } from "./stock_box.js";
+import { Undo } from "./undo.js";
 import { entriesOf, quoted, unquoted, withKey, withoutLine, withValue, type Entry } from "./job_text.js";
 
 interface Field {
@@ -18,10 +20,9 @@ const NUMBERS: Field[] = [
   { table: "cutter", key: "flutes", label: word("flutes") },
   { table: "cutter", key: "length_mm", label: word("length of edges"), unit: lengthUnit },
   { table: "cutter", key: "stickout_mm", label: word("stick-out"), unit: lengthUnit },
-  { table: "process", key: "spindle_rpm", label: word("spindle"), unit: () => "rpm" },
+  { table: "process", key: "spindle_rpm", label: word("spindle"), unit: () => t("rpm") },
   { table: "process", key: "feed_mm_per_min", label: word("feed"), unit: feedUnit },
 ];
-const BOX = /^\[\s*\[([^[\]]*)\]\s*,\s*\[([^[\]]*)\]\s*\]$/;
 
 export interface Known extends SetUp {
   name: string; // of the job file
@@ -73,10 +74,23 @@ export class SetUpCard {
   private readonly before: string[] = [];
   private readonly text = element<HTMLTextAreaElement>("job-text");
   private readonly back = element<HTMLButtonElement>("setup-back");
+  private readonly undoButton = element<HTMLButtonElement>("setup-undo");
+  private readonly redoButton = element<HTMLButtonElement>("setup-redo");
+  // Of the text, since the job was milled.
+  private undo = new Undo("");
 
-  /** `run` mills this job in place of the one here; it returns whether it was taken. */
-  constructor(private readonly run: (text: string) => Promise<boolean>) {
-    this.text.addEventListener("change", () => this.build());
+  /**
+   * `run` mills this job in place of the one here; it returns whether it was taken. `stock` is called with the box of the
+   * stock whenever it may have changed; undefined: there is none to set up.
+   */
+  constructor(
+    private readonly run: (text: string) => Promise<boolean>,
+    private readonly stock: (box: Box | undefined) => void,
+  ) {
+    this.text.addEventListener("change", () => this.change(this.text.value));
+    this.undoButton.addEventListener("click", () => this.restore(this.undo.undo()));
+    this.redoButton.addEventListener("click", () => this.restore(this.undo.redo()));
+    addEventListener("keydown", (event) => this.listenToUndo(event));
     onUnit(() => this.build());
     element("mill-again").addEventListener("click", () => void this.again());
     this.back.addEventListener("click", () => void this.goBack());
@@ -91,7 +105,7 @@ export class SetUpCard {
     if (known && known.name === this.known?.name && known.text === this.known.text) return;
     this.known = known;
     element("setup-card").hidden = known === undefined;
-    if (!known) return;
+    if (!known) return this.stock(undefined);
     if (known.name !== this.name) this.before.length = 0;
     this.name = known.name;
     this.set(known.text);
@@ -108,14 +122,48 @@ export class SetUpCard {
   }
 
   private set(text: string): void {
-    this.text.value = text;
     this.back.disabled = this.before.length === 0;
-    this.build();
+    this.undo = new Undo(text);
+    this.restore(text);
   }
   // The form follows the text, and the text the form.
   private change(text: string): void {
+    this.undo.commit(text);
+    this.restore(text);
+  }
+  private restore(text: string): void {
     this.text.value = text;
+    this.undoButton.disabled = !this.undo.canUndo;
+    this.redoButton.disabled = !this.undo.canRedo;
     this.build();
+  }
+
+  /** Another box of the stock; it can be undone when it is `done`. */
+  stretch(box: Box, done: boolean): void {
+    const entry = this.stockEntry();
+    if (!entry) return;
+    const text = withValue(this.text.value, entry.line, textOf(box));
+    if (done) this.change(text);
+    else this.restore(text);
+  }
+  /** Says which box the stock has. */
+  tellStock(): void {
+    const entry = this.known && this.stockEntry();
+    this.stock(entry && boxOf(entry.raw));
+  }
+  private stockEntry(): Entry | undefined {
+    return entriesOf(this.text.value).find(({ table, key }) => table === "stock" && key === "box_mm");
+  }
+
+  // In the text the browser undoes single letters.
+  private listenToUndo(event: KeyboardEvent): void {
+    const away = element("setup-card").offsetParent === null || event.target === this.text;
+    if (away || !(event.ctrlKey || event.metaKey) || event.altKey) return;
+    const key = event.key.toLowerCase();
+    if (key === "y" || (key === "z" && event.shiftKey)) this.redoButton.click();
+    else if (key === "z") this.undoButton.click();
+    else return;
+    event.preventDefault();
   }
 
   private build(): void {
@@ -149,9 +197,10 @@ export class SetUpCard {
           ),
         ),
       );
-    const box = find("stock", "box_mm");
-    const corners = box && BOX.exec(box.raw);
-    if (box && corners) fields.push(...this.corners(corners, put(box)));
+    this.tellStock();
+    const stock = this.stockEntry();
+    const box = stock && boxOf(stock.raw);
+    if (stock && box) fields.push(...this.corners(box, put(stock)));
     for (const field of NUMBERS)
       for (const entry of entries.filter((e) => e.table === field.table && e.key === field.key)) {
         const which = field.table === "cutter" ? this.cutterName(entries, entry) : "";
@@ -168,21 +217,21 @@ export class SetUpCard {
     if (focus >= 0) element("setup-form").querySelectorAll<HTMLElement>("input, select")[focus]?.focus();
   }
 
-  private corners(corners: RegExpExecArray, put: (raw: string) => void): HTMLElement[] {
-    const ends = [corners[1]!, corners[2]!].map((end) => end.split(",").map((v) => v.trim()));
-    return ["x", "y", "z"].map((axis, n) => {
-      const change = (end: number) => (value: string) => {
-        ends[end]![n] = value;
-        put(`[[${ends[0]!.join(", ")}], [${ends[1]!.join(", ")}]]`);
-      };
-      const [low, high] = [lengthField(ends[0]![n]!, change(0)), lengthField(ends[1]![n]!, change(1))];
-      low.ariaLabel = t("stock from {axis}", { axis });
-      high.ariaLabel = t("stock to {axis}", { axis });
+  private corners(box: Box, put: (raw: string) => void): HTMLElement[] {
+    return (["x", "y", "z"] as const).map((name, n) => {
+      const axis = n as 0 | 1 | 2;
+      const field = (end: 0 | 1) =>
+        lengthField(String(box[end][axis]), (value) =>
+          put(textOf(moved(box, { end, axis }, Number(value), -Infinity))),
+        );
+      const [low, high] = [field(0), field(1)];
+      low.ariaLabel = t("stock from {axis}", { axis: name });
+      high.ariaLabel = t("stock to {axis}", { axis: name });
       const both = document.createElement("span");
       both.append(low, ` ${t("to")} `, high, ` ${lengthUnit()}`);
       const row = document.createElement("div");
       row.className = "corner";
-      row.append(t("stock {axis}", { axis }), both);
+      row.append(t("stock {axis}", { axis: name }), both);
       return row;
     });
   }

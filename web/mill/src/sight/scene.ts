@@ -15,6 +15,7 @@ import {
   NeutralToneMapping,
   NoToneMapping,
   PerspectiveCamera,
+  type Ray,
   Raycaster,
   Scene as ThreeScene,
   Vector2,
@@ -293,9 +294,17 @@ export class Scene {
 
   // Returns the point of the part at a position of the canvas (CSS pixels from its corner).
   pick(x: number, y: number): Hit | undefined {
+    this.aimRay(x, y);
+    return this.part.hit(this.rays);
+  }
+  // The ray from the eye through a position of the canvas.
+  rayAt(x: number, y: number): Ray {
+    this.aimRay(x, y);
+    return this.rays.ray;
+  }
+  private aimRay(x: number, y: number): void {
     const at = new Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight);
     this.rays.setFromCamera(at, this.camera);
-    return this.part.hit(this.rays);
   }
 
   // Returns the highest point of the part below a point, or undefined.

@@ -162,7 +162,7 @@ export const TABLE: Table = {
   "multiplier, above 1: chatter": "Multiplikator, über 1: Rattern",
   growth: "Wachstum",
   Sound: "Ton",
-  Plots: "Diagramme",
+  Plots: "Kurven",
   "Spectrogram of the sound, 0 to {khz} kHz": "Spektrogramm des Tons, 0 bis {khz} kHz",
   "The sound is off: press Sound.": "Der Ton ist aus: „Ton“ drücken.",
   "peak force {force} N": "Spitzenkraft {force} N",
@@ -250,7 +250,7 @@ export const TABLE: Table = {
     "Eine kleine Schwingung hat einen Zahn später das Sovielfache ihrer Größe",
   "Speeds and depths at which this cut chatters, with the cut now. A click turns the spindle at that speed.":
     "Drehzahlen und Tiefen, bei denen dieser Schnitt rattert, mit dem Schnitt jetzt. Ein Klick dreht die Spindel mit dieser Drehzahl.",
-  "Set-up": "Einrichten",
+  "Set-up": "Rüsten",
   "Home key": "Taste Pos1",
   "The job as text": "Der Auftrag als Text",
   "As it was milled before": "Wie zuvor gefräst wurde",
@@ -390,6 +390,14 @@ export const TABLE: Table = {
   "feel the part beside the finger": "das Werkstück neben dem Finger fühlen",
   "these keys": "diese Tasten",
   Close: "Schließen",
+  rpm: "U/min",
+  Undo: "Rückgängig",
+  Redo: "Wiederholen",
+  "The last change (Ctrl+Z)": "Die letzte Änderung (Strg+Z)",
+  "What was undone (Ctrl+Shift+Z)": "Was rückgängig gemacht wurde (Strg+Umschalt+Z)",
+  Ctrl: "Strg",
+  ", with": ", mit",
+  "undo, redo in the set-up": "rückgängig, wiederholen beim Rüsten",
   "The language changes when the page is opened the next time: this job is too long to be kept.":
     "Die Sprache wechselt, wenn die Seite das nächste Mal geöffnet wird: dieser Auftrag ist zu lang, um behalten zu werden.",
 };
