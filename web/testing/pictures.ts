@@ -5,7 +5,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname } from "node:path";
 import type { Page } from "playwright-core";
 
-const WIDTH = 160;
+const WIDTH = 120;
 // Levels of 255 that two builds of a browser may differ by.
 const SAME_LEVELS = 8;
 
