@@ -169,6 +169,19 @@ describe.runIf(hasMillPage)("the page in German", () => {
   );
 
   it(
+    "fits on a phone, although its words are longer",
+    async () => {
+      await page.setViewportSize({ width: 390, height: 844 });
+      await page.waitForTimeout(300);
+      await mill.picture("german-phone");
+      expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+      const box = (await page.locator("#show-panel").boundingBox())!;
+      expect(box.x + box.width).toBeLessThanOrEqual(390);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "changes its language at the same moment, and remembers it",
     async () => {
       const before = await mill.text("clock");

@@ -11,7 +11,7 @@ import type { Pose, Scene } from "../sight/scene.js";
 
 /** What the film sets in the page. */
 export interface Stage {
-  readonly scene: Pick<Scene, "pose" | "wholePose" | "extent" | "setCurtain" | "setFill" | "setBare">;
+  readonly scene: Pick<Scene, "pose" | "wholePose" | "setCurtain" | "setFill" | "setBare">;
   readonly state: StateFrame | undefined;
   readonly duration: number; // of the program, s
   readonly rows: readonly Row[];
@@ -40,9 +40,9 @@ export interface Shot {
 const FLIGHT_S = 1.6;
 // Of the camera about the finished part, rad/s.
 const TURN = 0.16;
-// From the front right, little above the cutter; the distance in sizes of the part.
+// From the front right, little above the cutter, at a share of the distance from which the whole part is seen.
 const LOW = new Vector3(0.4, -0.9, 0.36).normalize();
-const CLOSE = 0.78;
+const CLOSE = 0.38;
 // Towards the eye before the film: so low that the grooves reflect the light.
 const NEARER = 0.84;
 const GRAZING = new Vector3(0.42, -0.95, 0.4).normalize();
@@ -60,7 +60,7 @@ const smooth = (share: number) => share * share * (3 - 2 * share);
 
 function atCutter({ scene, state }: Stage): Pose {
   const [x, y, z] = state?.tip ?? [0, 0, 0];
-  return { target: new Vector3(x, y, z), towards: LOW, distance: CLOSE * scene.extent() };
+  return { target: new Vector3(x, y, z), towards: LOW, distance: CLOSE * scene.wholePose().distance };
 }
 
 /** The finished part, turning slowly, until somebody acts. */
