@@ -270,11 +270,13 @@ TEST(PressCycle, no_edge_catches_a_probe_that_rides_over_it) {
 // 29597), or came down on a wall that the probe was not behind (61990), or again and again above a rounded
 // edge (63177). On a floor the step between two pieces of a sweep, a nanometre high, was taken for the place
 // below the ball (102461, 103715), or the depth in a searched sweep was 70 nm
-// short here and right there, a step that no way led over (4261, 6892, 115751, 116515, 116927).
+// short here and right there, a step that no way led over (4261, 6892, 115751, 116515, 116927), or a piece
+// whose floor is 60 nm higher was taken for the one below it (21340).
 TEST(PressCycle, corners_of_bent_sides_neither_set_the_proxy_back_nor_hold_it) {
     const Slots thin = slots(2.2, 2, 3, 0.2, 0.15), thick = slots(3, 2, 3, 0.4, 0.15);
-    for (const std::uint64_t n : {4261u, 6892u, 8139u, 12747u, 13342u, 19519u, 23378u, 27106u, 29597u, 47929u,
-                                  51003u, 61990u, 63177u, 102461u, 103715u, 115751u, 116515u, 116927u}) {
+    for (const std::uint64_t n :
+         {4261u, 6892u, 8139u, 12747u, 13342u, 19519u, 21340u, 23378u, 27106u, 29597u, 47929u, 51003u, 61990u,
+          63177u, 102461u, 103715u, 115751u, 116515u, 116927u}) {
         const Found one = Press(n % 2 == 0 ? thin : thick, n).run();
         EXPECT_EQ(one.lost + one.in_air + one.inward + one.kicks, 0) << n;
     }

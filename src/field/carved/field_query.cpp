@@ -407,19 +407,25 @@ contact::Foot FieldQuery::below(contact::SurfaceSample depth, Vec3 p) const {
         foot.sample.normal = normalized(p - foot.at_mm, depth.normal);
         off_mm = std::abs(distance_mm(foot.at_mm));
     }
-    foot.found = depth.distance_mm > 0 && off_mm <= kStep;
+    // A brick that knows the piece knows where another one is deeper.
+    foot.found = depth.distance_mm > 0 &&
+                 (off_mm <= kNoStep || (off_mm <= kStep && !is_listed(depth.piece, foot.at_mm)));
     if (foot.found) foot.sides.put({foot.sample.normal, dot(foot.sample.normal, foot.at_mm), depth.piece}, 0);
     return foot;
 }
 
+bool FieldQuery::is_listed(ShapeId id, Vec3 p) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b) || bricks.get(b) < kFirstBrick) return false;
+    const std::vector<ShapeId>& listed = (*pool)[bricks.get(b)].shapes;
+    return std::find(listed.begin(), listed.end(), id) != listed.end();
+}
+
 // The nearest place on the pieces that met at the last one, if it is proven to be the nearest of all.
 std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint& hint) const {
-    const BrickCoord b = brick_at(hint.at_mm);
-    if (hint.sides.count == 0 || !bricks.contains(b) || bricks.get(b) < kFirstBrick) return std::nullopt;
-    const std::vector<ShapeId>& listed = (*pool)[bricks.get(b)].shapes;
+    if (hint.sides.count == 0) return std::nullopt;
     for (int n = 0; n < hint.sides.count; ++n) {
-        const ShapeId piece = hint.sides.side[static_cast<std::size_t>(n)].piece;
-        if (std::find(listed.begin(), listed.end(), piece) == listed.end()) return std::nullopt;
+        if (!is_listed(hint.sides.side[static_cast<std::size_t>(n)].piece, hint.at_mm)) return std::nullopt;
     }
     Vec3 start = hint.sides.nearest(p);
     if (hint.sides.count == 1) {

@@ -101,6 +101,7 @@ struct FieldQuery {
     bool is_nearest(const contact::Foot& foot) const;
     std::optional<contact::Foot> follow(Vec3 point_mm, const contact::NearHint& hint) const;
     contact::Foot below(contact::SurfaceSample depth, Vec3 point_mm) const;
+    bool is_listed(ShapeId id, Vec3 point_mm) const;
     contact::Foot search_nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;
     // A point on the surface, and its normal.
     struct Seen {
