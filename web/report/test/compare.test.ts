@@ -10,6 +10,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { hasBrowser, launch, launchWithoutGraphics, PATIENCE_MS } from "../../testing/browser.js";
 import { jobText } from "../../testing/job.js";
+import { coloursOf, watch } from "../../testing/offline_page.js";
 import { PROGRAM } from "../../tools/places.js";
 
 const JOB = jobText("[[0, 0, -8], [40, 20, 0]]", "");
@@ -20,8 +21,8 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the page of a comparison", ()
   let folder: string;
   let browser: Browser;
   let page: Page;
-  const asked: string[] = [];
-  const problems: string[] = [];
+  let asked: string[];
+  let problems: string[];
   let address: string;
 
   beforeAll(async () => {
@@ -38,9 +39,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the page of a comparison", ()
     address = pathToFileURL(join(folder, "out/compare.html")).href;
     browser = await launch();
     page = await browser.newPage({ viewport: { width: 900, height: 700 } });
-    page.on("pageerror", (error) => problems.push(error.message));
-    page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
-    page.on("request", (request) => asked.push(request.url()));
+    ({ asked, problems } = watch(page));
     // Counts what the page does with sounds.
     await page.addInitScript(() => {
       const counts = { starts: 0, stops: 0, jumps: 0, fades: 0 };
@@ -66,28 +65,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the page of a comparison", ()
     rmSync(folder, { recursive: true, force: true });
   });
 
-  // How many pixels of a view are of the colours of the scale, and a number that changes with the picture.
-  const view = (side: string) =>
-    page.evaluate(async (name) => {
-      await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
-      const canvas = document.querySelector<HTMLCanvasElement>(`#view-${name} canvas`)!;
-      const flat = document.createElement("canvas");
-      flat.width = canvas.width;
-      flat.height = canvas.height;
-      const context = flat.getContext("2d")!;
-      context.drawImage(canvas, 0, 0);
-      const bytes = context.getImageData(0, 0, flat.width, flat.height).data;
-      const seen = { drawn: 0, orange: 0, purple: 0, sum: 0 };
-      for (let n = 0; n < bytes.length; n += 4) {
-        const [r, g, b, a] = bytes.subarray(n, n + 4) as unknown as [number, number, number, number];
-        if (a === 0) continue;
-        ++seen.drawn;
-        seen.sum = (31 * seen.sum + r + 3 * g + 7 * b + n) % 1_000_000_007;
-        if (r > 1.4 * b && r > 1.2 * g) ++seen.orange;
-        if (b > 1.15 * g && r > 1.03 * g) ++seen.purple;
-      }
-      return seen;
-    }, side);
+  const view = (side: string) => coloursOf(page, `#view-${side} canvas`);
   const read = (side: string) => page.textContent(`#view-${side} .readout`);
 
   it("is one file that asks for nothing else", () => {

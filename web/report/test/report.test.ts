@@ -10,6 +10,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { hasBrowser, launch, launchWithoutGraphics, PATIENCE_MS } from "../../testing/browser.js";
 import { jobText } from "../../testing/job.js";
+import { coloursOf, watch } from "../../testing/offline_page.js";
 import { PROGRAM } from "../../tools/places.js";
 
 const JOB = jobText(
@@ -33,8 +34,8 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
   let folder: string;
   let browser: Browser;
   let page: Page;
-  const asked: string[] = [];
-  const problems: string[] = [];
+  let asked: string[];
+  let problems: string[];
   let address: string;
 
   beforeAll(async () => {
@@ -46,9 +47,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
     address = pathToFileURL(join(folder, "out/report.html")).href;
     browser = await launch();
     page = await browser.newPage({ viewport: { width: 900, height: 700 } });
-    page.on("pageerror", (error) => problems.push(error.message));
-    page.on("console", (message) => message.type() === "error" && problems.push(message.text()));
-    page.on("request", (request) => asked.push(request.url()));
+    ({ asked, problems } = watch(page));
     await page.goto(address);
     await page.waitForFunction(() => document.querySelector("#part-view img")?.hasAttribute("hidden"));
   }, PATIENCE_MS);
@@ -58,32 +57,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
     rmSync(folder, { recursive: true, force: true });
   });
 
-  // How many pixels of the view are of each of its colours, and a number that changes with the picture.
-  const view = () =>
-    page.evaluate(async () => {
-      await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
-      const canvas = document.querySelector<HTMLCanvasElement>("#part-view canvas");
-      const flat = document.createElement("canvas");
-      flat.width = canvas?.width ?? 0;
-      flat.height = canvas?.height ?? 0;
-      const context = flat.getContext("2d");
-      if (!canvas || !context) return { drawn: 0, blue: 0, grey: 0, orange: 0, purple: 0, yellow: 0, sum: 0 };
-      context.drawImage(canvas, 0, 0);
-      const bytes = context.getImageData(0, 0, flat.width, flat.height).data;
-      const seen = { drawn: 0, blue: 0, grey: 0, orange: 0, purple: 0, yellow: 0, sum: 0 };
-      for (let n = 0; n < bytes.length; n += 4) {
-        const [r, g, b, a] = bytes.subarray(n, n + 4) as unknown as [number, number, number, number];
-        if (a === 0) continue;
-        ++seen.drawn;
-        seen.sum = (31 * seen.sum + r + 3 * g + 7 * b + n) % 1_000_000_007;
-        if (b > 1.3 * r && b > 1.1 * g) ++seen.blue;
-        if (Math.abs(r - g) < 12 && Math.abs(b - g) < 16) ++seen.grey;
-        if (r > 1.4 * b && r > 1.2 * g) ++seen.orange;
-        if (b > 1.15 * g && r > 1.03 * g) ++seen.purple;
-        if (r > 200 && g > 150 && b < 60) ++seen.yellow;
-      }
-      return seen;
-    });
+  const view = () => coloursOf(page, "#part-view canvas");
 
   it("is one file of less than 5 MB that asks for nothing else", () => {
     expect(asked.filter((url) => !url.startsWith("data:"))).toEqual([address]);
