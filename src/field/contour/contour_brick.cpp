@@ -250,23 +250,40 @@ class BrickContour {
         // error: onto the surface where it is smooth, onto the intersection of its faces where it is not.
         constexpr double kSmooth = 0.1;  // rad
         if (options_.rough) return into_cell(quadric.is_flat(kSmooth) ? quadric.mean() : quadric.solve());
-        Vec3 p;
         if (quadric.is_flat(kSmooth)) {
-            p = into_cell(quadric.mean());
+            const Vec3 p = into_cell(quadric.mean());
             const CarvedField::Exact e = field_.exact(nodes_.ref(), p);
-            if (std::abs(e.distance_mm) < 0.5 * field_.cell_mm()) p -= e.distance_mm * normal(e.shape, p);
-        } else {
-            p = into_cell(quadric.solve());
-            for (const double back : {0.3, 0.03}) {
-                Quadric planes;
-                for (std::size_t k = 0; k < count; ++k) {
-                    const Tangent t = tangent_near(*around[k], p, back);
-                    planes.add(t.point, t.normal);
-                }
-                p = into_cell(planes.solve());
-            }
+            const bool near = std::abs(e.distance_mm) < 0.5 * field_.cell_mm();
+            return near ? into_cell(p - e.distance_mm * normal(e.shape, p)) : p;
         }
-        return into_cell(p);
+        Vec3 p = into_cell(quadric.solve());
+        Quadric planes;
+        for (const double back : {0.3, 0.03}) {
+            planes = {};
+            for (std::size_t k = 0; k < count; ++k) {
+                const Tangent t = tangent_near(*around[k], p, back);
+                planes.add(t.point, t.normal);
+            }
+            p = into_cell(planes.solve());
+        }
+        return onto_surface(planes, p, into_cell);
+    }
+
+    // The planes miss the surface where a face takes part that crosses no edge of the cell, and at cusps of
+    // strongly curved faces. First the face at p becomes one of the planes; what is left is a way along its
+    // normal.
+    template <class IntoCell>
+    Vec3 onto_surface(Quadric planes, Vec3 p, const IntoCell& into_cell) const {
+        constexpr int kPlanes = 4, kSteps = 8;
+        const double close_mm = 1e-3 * field_.cell_mm();
+        for (int n = 0; n < kSteps; ++n) {
+            const CarvedField::Exact e = field_.exact(nodes_.ref(), p);
+            if (std::abs(e.distance_mm) < close_mm) break;
+            const Vec3 out = normal(e.shape, p), foot = p - e.distance_mm * out;
+            if (n < kPlanes) planes.add(foot, out);
+            p = into_cell(n < kPlanes ? planes.solve() : foot);
+        }
+        return p;
     }
 
     const CarvedField& field_;
