@@ -42,12 +42,22 @@ fuzz_one() {
         -artifact_prefix="build/fuzz/crashes/$reader-" "$work" "${seeds[@]}" >"$log" 2>&1; then
         printf '%-12s %s\n' "$reader" "$(sed -n 's/^stat::number_of_executed_units: */runs: /p' "$log")"
     else
-        tail -n 60 "$log"
-        echo "fuzz_$reader failed; the input is under build/fuzz/crashes/"
+        touch "build/fuzz/crashes/$reader.failed"
         return 1
     fi
 }
 export -f fuzz_one
+
+# Last of all, so that it is not lost above the others: what failed, where, and the input where it is small.
+show_findings() {
+    local failed reader
+    for failed in build/fuzz/crashes/*.failed; do
+        reader=$(basename "$failed" .failed)
+        say "fuzz_$reader failed; the input is under build/fuzz/crashes/"
+        tail -n 60 "build/fuzz/grown/$reader.log"
+    done
+    return 1
+}
 
 fuzz_all() {
     local readers
@@ -55,7 +65,7 @@ fuzz_all() {
     if [ ${#readers[@]} -eq 0 ]; then return; fi
     rm -rf build/fuzz/crashes
     configure_and_build fuzz --target fuzzers &&
-        printf '%s\n' "${readers[@]}" | xargs -P "$JOBS" -I{} bash -c "fuzz_one {} $fuzz_seconds"
+        { printf '%s\n' "${readers[@]}" | xargs -P "$JOBS" -I{} bash -c "fuzz_one {} $fuzz_seconds" || show_findings; }
 }
 
 # Ten minutes of live play at full speed with clients that never read, ten with a crowd of viewers; a sweep whose node dies.
