@@ -12,7 +12,6 @@ namespace tribo::readers::apt {
 namespace {
 
 constexpr int kDeepest = 16;  // calls within each other
-constexpr std::size_t kMostStatements = 1'000'000;
 constexpr double kMostCopies = 10'000;
 
 std::string upper(std::string_view text) {
@@ -51,7 +50,7 @@ Result<void> Procedures::take(const Statement& statement, double unit_mm, const 
         }
         return {};
     }
-    if (is_plain) return run_one(statement, {}, run);
+    if (is_plain) return run_one(statement, run);
     const auto defined = define(statement);
     if (!defined) return std::unexpected(defined.error());
     if (*defined) return {};
@@ -64,7 +63,7 @@ Result<void> Procedures::take(const Statement& statement, double unit_mm, const 
         if (statement.items.size() == 1) indices_[static_cast<int>(*number)] = recorded_.size();
         return {};
     }
-    return run_one(names_.empty() ? statement : replaced(statement), {}, run);
+    return run_one(names_.empty() ? statement : replaced(statement), run);
 }
 
 Result<void> Procedures::finish() const {
@@ -73,15 +72,24 @@ Result<void> Procedures::finish() const {
                           "write TERMAC behind its last statement");
 }
 
-Result<void> Procedures::run_one(const Statement& statement, const Frame& frame, const Run& run) {
+Result<void> Procedures::run_one(const Statement& statement, const Run& run) {
     if (!indices_.empty()) {
-        if (recorded_.size() >= kMostStatements) {
-            return report_.refuse(statement.word, "copies of more than a million statements are not read",
-                                  "let the CAM system write the copies as GOTO");
-        }
-        recorded_.push_back({statement, frame});
+        written_.push_back(statement);
+        if (auto done = record({&written_.back(), {}}); !done) return done;
     }
-    return run(statement, frame);
+    return run(statement, {});
+}
+
+Result<void> Procedures::record(const Recorded& recorded) {
+    if (recorded_.size() >= most_statements_) return refuse_endless(recorded.statement->word);
+    recorded_.push_back(recorded);
+    return {};
+}
+
+std::unexpected<Error> Procedures::refuse_endless(const Item& at) const {
+    return report_.refuse(
+        at, "macros and copies run more than " + std::to_string(most_statements_) + " statements",
+        "correct the calls, or let the CAM system write the points");
 }
 
 // A name on the left of '='. Returns false for other statements, and for geometry that has no points.
@@ -147,9 +155,8 @@ Result<void> Procedures::call(const Statement& statement, double unit_mm, const 
     ++depth_;
     Result<void> done;
     for (std::size_t i = 0; i < macro.statements.size() && done; ++i) {
-        if (++count_ > kMostStatements) {
-            done = report_.refuse(statement.word, "macros and copies run more than a million statements",
-                                  "correct the calls");
+        if (++count_ > most_statements_) {
+            done = refuse_endless(statement.word);
             break;
         }
         done = take(macro.statements[i], unit_mm, run);
@@ -203,17 +210,17 @@ Result<void> Procedures::copy(const Statement& statement, double unit_mm, const 
                               "write a whole number up to 10000");
     const std::size_t begin = marked->second, end = recorded_.size();
     if (static_cast<double>(end - begin) * *times + static_cast<double>(count_) >
-        static_cast<double>(kMostStatements)) {
-        return report_.refuse(statement.word, "macros and copies run more than a million statements",
-                              "write fewer copies");
+        static_cast<double>(most_statements_)) {
+        return refuse_endless(statement.word);
     }
     Frame frame;
     for (double i = 0; i < *times; ++i) {
         frame = *step * frame;
         for (std::size_t k = begin; k < end; ++k) {
             ++count_;
-            const Recorded again = recorded_[k];
-            if (auto done = run_one(again.statement, frame * again.frame, run); !done) return done;
+            const Recorded again{recorded_[k].statement, frame * recorded_[k].frame};
+            if (auto done = record(again); !done) return done;
+            if (auto done = run(*again.statement, again.frame); !done) return done;
         }
     }
     return run({}, {});
