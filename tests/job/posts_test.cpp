@@ -52,6 +52,7 @@ std::string control_of(const std::string& name) {
                                                       {"okuma2", "Okuma OSP"},
                                                       {"fagor", "Fagor 8055"},
                                                       {"iso", "Heidenhain DIN/ISO"},
+                                                      {"nci", "Mastercam NCI"},
                                                       {"apt", ""}};
     return controls.at(name.substr(0, name.find_first_of("_.")));
 }
@@ -65,6 +66,7 @@ TEST(Posts, of_each_control_read) {
         {"haas_holes.nc", 13 * 0.6 * 25.4},
         {"g66.nc", 2 * 12},
         {"hypermill_heid.h", 11 + 10},
+        {"nci_mastercam.nci", 4 + 40 + 5 * M_PI + 20},
     };
     int count = 0;
     for (const auto& entry :
