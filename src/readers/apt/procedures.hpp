@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Names of numbers and points, macros, and copies of what was written before: statements that an APT
-// processor would have worked out. They are unfolded before the reader runs them.
+// Names of numbers and points, formulas, macros, loops, and copies of what was written before: statements
+// that an APT processor would have worked out. They are unfolded before the reader runs them.
 #pragma once
 
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,13 @@ class Procedures {
 
     explicit Procedures(Report& report) : report_(report) {}
 
-    // A=5, P1=POINT/x,y[,z], M=MACRO/A,B=2 to TERMAC, CALL/M,A=1, INDEX/n, COPY/n,TRANSL,x,y,z,times and
-    // COPY/n,XYROT,angle,times and COPY/n,SAME,times; everything else is run as it is, with names replaced.
+    // A=5, A=B*2+SINF(30), P1=POINT/x,y[,z], M=MACRO/A,B=2 to TERMAC, CALL/M,A=1, INDEX/n,
+    // COPY/n,TRANSL,x,y,z,times and COPY/n,XYROT,angle,times and COPY/n,SAME,times; between LOOPST and LOOPND
+    // and in macros also LABEL) before a statement, JUMPTO/LABEL, IF L1,L2,L3 (negative, zero,
+    // positive) and IF (A .LT. 5) with a statement behind it; everything else is run as it is, with names and
+    // formulas replaced by their values.
     Result<void> take(const Statement& statement, double unit_mm, const Run& run);
-    // Refuses a macro without its end.
+    // Refuses a macro or a loop without its end.
     Result<void> finish() const;
 
   private:
@@ -47,13 +51,24 @@ class Procedures {
     Result<void> call(const Statement& statement, double unit_mm, const Run& run);
     Result<void> copy(const Statement& statement, double unit_mm, const Run& run);
     Result<Frame> step_of(const Statement& statement, double unit_mm) const;
+    // The statements of a macro or a loop, in the order of their jumps.
+    Result<void> run_block(const std::vector<Statement>& statements, double unit_mm, const Run& run);
+    // Where an IF leads: a label, or none if the next statement follows. An IF with a statement behind it
+    // runs that, and gives its label if it jumps.
+    Result<std::string> run_if(const Statement& statement, double unit_mm, const Run& run);
+    Result<std::string> run_in_block(const Statement& statement, double unit_mm, const Run& run);
+    std::optional<double> value(std::string_view formula) const;
     Statement replaced(const Statement& statement);
     std::string_view kept(std::string text);
 
     Report& report_;
     Names names_;
     std::map<std::string, Macro> macros_;
-    std::string defining_;  // the macro that is being defined; empty: none
+    std::string defining_;         // the macro that is being defined; empty: none
+    std::vector<Statement> loop_;  // since LOOPST
+    Item loop_at_;                 // the first LOOPST without its LOOPND
+    int loops_ = 0;                // how many there are
+    bool in_block_ = false;        // a macro or a loop runs
     std::map<int, std::size_t> indices_;
     std::vector<Recorded> recorded_;  // since the first INDEX
     std::deque<std::string> texts_;   // that replaced names
