@@ -38,7 +38,7 @@ constexpr std::array kExtensions{
     Extension{".cldata", PathKind::apt},    Extension{".cl", PathKind::apt},
     Extension{".aptsource", PathKind::apt}, Extension{".ncl", PathKind::apt},
     Extension{".i", PathKind::gcode},       Extension{".csv", PathKind::keyframes},
-    Extension{".nci", PathKind::apt},
+    Extension{".nci", PathKind::apt},       Extension{".xpi", PathKind::gcode},
 };
 
 // Of a line of APT, in lower case. The first two are comments of Creo and CATIA.
@@ -146,7 +146,9 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     }
     gcode.missing_programs = options.missing_programs;
     if (!options.dialect && readers::looks_like_din_iso(bytes)) return parse_din_iso(bytes, gcode, sink);
-    const auto other = options.dialect ? std::nullopt : readers::detect_other_control(bytes);
+    const auto other = options.dialect == readers::Dialect::num ? readers::OtherControl::num
+                       : options.dialect                        ? std::optional<readers::OtherControl>()
+                                                                : readers::detect_other_control(bytes);
     std::string in_fanuc_words;
     if (other) {
         in_fanuc_words = readers::in_fanuc_words(bytes, *other);
@@ -187,6 +189,7 @@ std::optional<PathKind> detect_program(std::string_view bytes, const std::string
 
 readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
                                     const ProgramFileOptions& options) {
+    if (options.dialect == readers::Dialect::num) return readers::Dialect::fanuc;
     if (options.dialect) return *options.dialect;
     if (readers::looks_like_din_iso(bytes)) return readers::Dialect::heidenhain;
     if (readers::detect_other_control(bytes)) return readers::Dialect::fanuc;

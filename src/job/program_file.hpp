@@ -39,7 +39,8 @@ struct ProgramFileOptions {
 // Empty if the file is no program.
 std::optional<PathKind> detect_program(std::string_view bytes, const std::string& path);
 
-// The control of G-code: by the options, the text, the file's name; else LinuxCNC.
+// The control of G-code: by the options, the text, the file's name; else LinuxCNC. Fanuc for the controls
+// whose programs are read in its words.
 readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
                                     const ProgramFileOptions& options);
 

@@ -10,7 +10,7 @@ import type { JobFile, Order } from "./workshop.js";
 export const LARGEST_FILE = 64 << 20;
 
 const MODELS = /\.(wrl|vrml|stl|obj|ply)(\.gz)?$/i;
-const PROGRAMS = /\.(ngc|nc|gcode|gc|tap|cnc|mpf|eia|min|h|spf|hnc|apt|cls|cldata|cl|aptsource|nci|csv|txt)$/i;
+const PROGRAMS = /\.(ngc|nc|gcode|gc|tap|cnc|mpf|eia|min|h|spf|hnc|apt|cls|cldata|cl|aptsource|nci|xpi|csv|txt)$/i;
 
 export type Wanted = { order: Order } | { recording: JobFile } | { moment: JobFile } | { refused: string };
 
