@@ -76,7 +76,7 @@ TEST(FanucWords, of_fagor_mean_what_fagor_means) {
     const motion::Program mirrored = read(kFagor + "G11\nG1 X10 Y5\nG10\nX10\n", OtherControl::fagor);
     EXPECT_EQ(mirrored.moves.at(0).end.tip_mm, (Vec3{-10, 5, 5}));
     EXPECT_EQ(mirrored.moves.at(1).end.tip_mm, (Vec3{10, 5, 5}));
-    for (const char* text : {"G8 X5 Y5\n", "G9 X5 Y5 I1\n", "G93 I1 J1\n", "G69 X1 Z2 I-9\n"}) {
+    for (const char* text : {"G8 R5 Q5\n", "G9 X5 Y5 I1\n", "G93 I1 J1\n", "G69 X1 Z2 I-9\n"}) {
         EXPECT_NE(fault(kFagor + text, OtherControl::fagor).find("FAGORG"), std::string::npos) << text;
     }
     EXPECT_NE(fault(kFagor + "(RPT 10,20)\n", OtherControl::fagor).find("'RPT'"), std::string::npos);
@@ -108,6 +108,14 @@ TEST(FanucWords, of_fagor_have_arcs_by_centre_and_by_three_points) {
     const std::string start = "G90 G21 G17 F100 S500 M3\nG0 X0 Y0 Z5\n";
     expect_same(kFagor + "G1 X10 Y5\nG06 G3 X20 Y15 I10 J15\nG3 X30 Y25 I0 J10\n", OtherControl::fagor,
                 start + "G1 X10 Y5\nG3 X20 Y15 I0 J10\nG3 X30 Y25 I0 J10\n");
+    // Tangent arcs: two quarters to the left and one to the right; behind a rapid, and in a mirror image.
+    expect_same(kFagor +
+                    "G1 X10\nG8 X20 Y10\nG08 X10 Y20\nG8 X0 Y30\nG1 X5\nG91 G8 Y4\nG90 G0 X0 Y0\nG0 Y10\nG8 "
+                    "X-5 Y15\nG11\nG1 X10 Y15\nG8 X20 Y25\n",
+                OtherControl::fagor,
+                start +
+                    "G1 X10\nG3 X20 Y10 I0 J10\nG3 X10 Y20 I-10 J0\nG2 X0 Y30 I0 J10\nG1 X5\nG3 Y34 I0 J2\n"
+                    "G0 X0 Y0\nG0 Y10\nG3 X-5 Y15 I-5 J0\nG1 X-10 Y15\nG2 X-20 Y25 I0 J10\n");
     // Half a circle about (10, 0), to the left and to the right; then as increments.
     expect_same(kFagor +
                     "G1 X0\nG9 X20 Y0 I10 J10\nG9 X40 Y0 I30 J-10\nG91 G9 X10 Y10 I2.92893218813452 "

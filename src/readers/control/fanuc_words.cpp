@@ -387,16 +387,35 @@ class Translator {
         return "[" + std::string(is_negative ? "0-" : "") + (known.empty() ? word : known) + "]";
     }
 
-    // An arc to X Y through the point I J, in the plane of X and Y: its centre follows from the three points.
-    void three_points() {
+    // The word as a way from the start, which is at `place`; increments are that already.
+    std::string take_way(char letter, const char* place) {
         // G90 and G91 of this block hold for it, and #4003 says what held before.
         const bool is_relative = in_.find("G91") != std::string::npos,
                    is_absolute = in_.find("G90") != std::string::npos;
-        const std::string absolute = is_relative ? "0" : is_absolute ? "1" : "[#4003 EQ 90]";
-        const auto way = [&](char letter, const char* place) {
-            // From the start; increments are that already.
-            return "[" + take_value(letter) + "-" + place + "*" + absolute + "]";
-        };
+        const std::string absolute = is_relative   ? "0"
+                                     : is_absolute ? "1"
+                                                   : "[#4003 EQ 90]",
+                          value = take_value(letter);
+        return value.empty() ? "0" : "[" + value + "-" + place + "*" + absolute + "]";
+    }
+
+    // An arc to X Y that goes on in the direction of the move before it: #99901 and on (gcode/text/
+    // fanuc_variables.hpp).
+    void tangent_arc() {
+        const std::string in = in_;
+        const std::string c = take_way('X', "#5041"), d = take_way('Y', "#5042");
+        in_ = in;
+        if (c == "0" && d == "0") {
+            out_ += "FAGORG8";
+            return;
+        }
+        const std::string cross = "[#99901*" + d + "-#99902*" + c + "]";
+        const std::string radius = "[[" + c + "*" + c + "+" + d + "*" + d + "]/[2*" + cross + "]]";
+        out_ += "G91.1 G[2+[" + cross + " GT 0]] I[0-#99902*" + radius + "] J[#99901*" + radius + "] ";
+    }
+
+    // An arc to X Y through the point I J, in the plane of X and Y: its centre follows from the three points.
+    void three_points() {
         const bool is_whole =
             in_.find('X', at_) != std::string::npos && in_.find('Y', at_) != std::string::npos &&
             in_.find('I', at_) != std::string::npos && in_.find('J', at_) != std::string::npos;
@@ -405,8 +424,8 @@ class Translator {
             return;
         }
         const std::string in = in_;
-        const std::string a = way('I', "#5041"), b = way('J', "#5042"), c = way('X', "#5041"),
-                          d = way('Y', "#5042");
+        const std::string a = take_way('I', "#5041"), b = take_way('J', "#5042"), c = take_way('X', "#5041"),
+                          d = take_way('Y', "#5042");
         const std::string cross = "[" + a + "*" + d + "-" + b + "*" + c + "]";
         const std::string e = "[" + a + "*" + a + "+" + b + "*" + b + "]",
                           f = "[" + c + "*" + c + "+" + d + "*" + d + "]";
@@ -439,12 +458,14 @@ class Translator {
     }
 
     void fagor_code(const std::string& number) {
-        constexpr std::array<std::string_view, 8> refused{"8", "20", "37", "38", "69", "72", "83", "93"};
+        constexpr std::array<std::string_view, 7> refused{"20", "37", "38", "69", "72", "83", "93"};
         constexpr std::array<std::string_view, 6> cycles{"81", "82", "84", "85", "86", "89"};
         if (std::find(refused.begin(), refused.end(), number) != refused.end()) {
             out_ += "FAGORG" + number;  // means something else on a Fanuc control: refused by this name
         } else if (number == "6") {
             has_absolute_centre_ = true;
+        } else if (number == "8") {
+            tangent_arc();
         } else if (number == "9") {
             three_points();
         } else if (number == "5" || number == "7" || number == "50") {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "readers/text/text_lines.hpp"
 
@@ -58,6 +59,116 @@ bool is_cycle(std::string_view code) {
     return code.size() == 2 && code[0] == '8' && code[1] != '0';
 }
 
+// The words of a block.
+class NumBlock {
+  public:
+    explicit NumBlock(std::vector<NumWord> words) : words_(std::move(words)) {
+        for (const NumWord& word : words_) {
+            if (word.address == "G" && is_cycle(word.value)) cycle_ = word.value;
+        }
+    }
+
+    std::string in_fanuc_words() {
+        for (const NumWord& word : words_) {
+            if (word.address == "G" && !is_read(word.value)) return refused(word.value);
+        }
+        if (has_code("77")) return call();
+        if (const auto all = of_its_own()) return *all;
+        std::string out;
+        if (has_code("4")) {
+            if (const auto seconds = take("F")) out += "X" + *seconds;
+        }
+        if (!has_code("41") && !has_code("42")) {
+            if (const auto offset = take("D")) out += *offset == "0" ? "G49 " : "G43 ";
+        }
+        for (const NumWord& word : words_) {
+            const std::string text = fanuc_word(word);
+            if (text.starts_with("GNUM")) return text;
+            out += text;
+        }
+        if (cycle_.empty()) return out;
+        // The tool returns to the plane of ER; without one, to where it is.
+        return "G99 " + out + (has("ER") ? "" : "R#5043");
+    }
+
+  private:
+    // In the table, or with a reading of its own.
+    static bool is_read(std::string_view code) {
+        constexpr std::array<std::string_view, 4> own{"4", "16", "77", "151"};
+        return std::ranges::find(own, code) != own.end() ||
+               std::ranges::find(kCodes, code, &Renamed::num) != kCodes.end();
+    }
+    bool has(std::string_view address) const {
+        return std::ranges::find(words_, address, &NumWord::address) != words_.end();
+    }
+    bool has_code(std::string_view code) const {
+        return std::ranges::any_of(words_,
+                                   [&](const NumWord& w) { return w.address == "G" && w.value == code; });
+    }
+    // The value of the word, taken out of the block; none: the block has no such word.
+    std::optional<std::string> take(std::string_view address) {
+        const auto found = std::ranges::find(words_, address, &NumWord::address);
+        if (found == words_.end()) return std::nullopt;
+        const std::string value = found->is_negative ? "[0-" + found->value + "]" : found->value;
+        words_.erase(found);
+        return value;
+    }
+
+    // G77 H50 S2: a program; G77 N10 N20 S3: lines.
+    std::string call() {
+        std::vector<std::string> lines;
+        const auto program = take("H"), times = take("S");
+        while (const auto line = take("N")) lines.push_back(*line);
+        const std::string repeats = times ? "L" + *times : "";
+        const bool is_alone = words_.size() == 1;
+        if (is_alone && program && lines.empty()) return "M98P" + *program + repeats;
+        if (is_alone && !program && (lines.size() == 1 || lines.size() == 2))
+            return "M97P" + lines.front() + "Q" + lines.back() + repeats;
+        return refused("77");
+    }
+
+    // Blocks that are read as a whole; none: word by word.
+    std::optional<std::string> of_its_own() {
+        if (has_code("151")) return words_.size() == 2 && take("S") == "0" ? "G49" : refused("151");
+        // The spindle along +Z is the state at the start.
+        if (has_code("16")) return words_.size() == 2 && take("R") == "0" ? "" : refused("16");
+        // A limit of the speed, or of the feed on arcs.
+        if (has_code("92") && (has("S") || has("R"))) return "";
+        const bool is_turned = has("I") || has("J") || has("K") || has("ED");
+        if (has_code("59") && is_turned) return refused("59");
+        return std::nullopt;
+    }
+
+    std::string fanuc_word(const NumWord& word) const {
+        const bool is_variable = word.value.starts_with('#');
+        const std::string signed_value =
+            word.is_negative ? (is_variable ? "-[" + word.value + "]" : "-" + word.value) : word.value;
+        if (word.address == "G") {
+            const auto known = std::ranges::find(kCodes, word.value, &Renamed::num);
+            return known == kCodes.end() ? "G4 " : std::string(known->fanuc) + " ";
+        }
+        // Positive: a round corner; negative: a chamfer.
+        if (word.address == "EB")
+            return is_variable ? refused("EB") : (word.is_negative ? ",C" : ",R") + word.value + " ";
+        if (word.address == "ER") return "R" + signed_value + " ";
+        if (word.address == "EF")
+            return cycle_ == "82" || cycle_ == "89" ? "P[" + word.value + "*1000] " : "";
+        if (!cycle_.empty()) {
+            const bool pecks = cycle_ == "83" || cycle_ == "87";
+            if (word.address == "P") return pecks ? "Q" + word.value + " " : "";
+            // Q: the last peck of some that grow shorter.
+            if (word.address == "Q" || is_aside(word.address)) return "";
+        }
+        if (word.address == "EC") return "";
+        if (word.address.size() > 1) return refused(word.address);
+        if (word.address == "E") return refused("E" + word.value);
+        return word.address + signed_value + " ";
+    }
+
+    std::vector<NumWord> words_;
+    std::string cycle_;  // 81 for G81; empty: none
+};
+
 }  // namespace
 
 bool is_block_of_num(std::string_view block) {
@@ -71,9 +182,9 @@ bool is_block_of_num(std::string_view block) {
 }
 
 // The variable of Fanuc for L5 or [NAME]; empty: none begins here.
-std::string NumWords::variable_at(std::size_t& at) const {
-    if (at < in_.size() && in_[at] == 'L') {
-        const std::string_view digits = digits_at(in_, at + 1);
+std::string NumWords::variable_at(std::string_view text, std::size_t& at) {
+    if (at < text.size() && text[at] == 'L') {
+        const std::string_view digits = digits_at(text, at + 1);
         if (digits.empty() || digits.size() > 3) return {};
         const int number = std::stoi(std::string(digits));
         const bool is_own = number >= kFirstOwn && number <= kLastOwn;
@@ -81,10 +192,11 @@ std::string NumWords::variable_at(std::size_t& at) const {
         at += 1 + digits.size();
         return "#" + std::to_string(is_own ? number : kFirstVariable + number);
     }
-    if (at < in_.size() && in_[at] == '[') {
-        const std::size_t end = in_.find(']', at);
-        const std::string name = in_.substr(at, end - at);
-        if (end == std::string::npos || (names_.size() >= kMostNames && !names_.contains(name))) return {};
+    if (at < text.size() && text[at] == '[') {
+        const std::size_t end = text.find(']', at);
+        const std::string name(text.substr(at, end - at));
+        if (end == std::string_view::npos || (names_.size() >= kMostNames && !names_.contains(name)))
+            return {};
         const auto known = names_.try_emplace(name, kFirstName + static_cast<int>(names_.size())).first;
         at = end + 1;
         return "#" + std::to_string(known->second);
@@ -93,25 +205,24 @@ std::string NumWords::variable_at(std::size_t& at) const {
 }
 
 // A variable or a number without its sign; empty: none begins here.
-std::string NumWords::operand_at(std::size_t& at) const {
-    if (std::string variable = variable_at(at); !variable.empty()) return variable;
+std::string NumWords::operand_at(std::string_view text, std::size_t& at) {
+    if (std::string variable = variable_at(text, at); !variable.empty()) return variable;
     const std::size_t start = at;
-    while (at < in_.size() && (is_digit(in_[at]) || in_[at] == '.')) ++at;
-    return in_.substr(start, at - start);
+    while (at < text.size() && (is_digit(text[at]) || text[at] == '.')) ++at;
+    return std::string(text.substr(start, at - start));
 }
 
 // The control works from left to right, without an order of operators: a formula that * or / behind + or -
 // would make another one is refused.
-std::string NumWords::formula(std::string_view text) const {
-    NumWords inner;
-    inner.names_ = names_;
-    for (const char c : text) {
-        if (!is_blank(c)) inner.in_ += c;
-    }
+std::string NumWords::formula(std::string_view text) {
     std::string value;
     bool has_sum = false;
-    for (std::size_t at = 0; at < inner.in_.size();) {
-        const char c = inner.in_[at];
+    for (std::size_t at = 0; at < text.size();) {
+        const char c = text[at];
+        if (is_blank(c)) {
+            ++at;
+            continue;
+        }
         if (c == '+' || c == '-' || c == '*' || c == '/') {
             if (has_sum && (c == '*' || c == '/')) return refused("ORDER");
             has_sum = has_sum || (!value.empty() && (c == '+' || c == '-'));
@@ -119,11 +230,10 @@ std::string NumWords::formula(std::string_view text) const {
             ++at;
             continue;
         }
-        const std::string operand = inner.operand_at(at);
+        const std::string operand = operand_at(text, at);
         if (operand.empty()) return refused("FUNCTION");
         value += operand;
     }
-    names_ = inner.names_;
     return value.starts_with('-') || value.starts_with('+') ? "0" + value : value;
 }
 
@@ -133,7 +243,7 @@ std::string NumWords::assignment() {
     std::size_t at = 0;
     while (at < in_.size()) {
         while (at < in_.size() && is_blank(in_[at])) ++at;
-        const std::string variable = variable_at(at);
+        const std::string variable = variable_at(in_, at);
         while (at < in_.size() && is_blank(in_[at])) ++at;
         if (variable.empty() || at >= in_.size() || in_[at] != '=') return {};
         const std::size_t start = ++at;
@@ -142,7 +252,7 @@ std::string NumWords::assignment() {
         for (std::size_t next = start; next < in_.size(); ++next) {
             std::size_t behind = next;
             if (in_[next] != 'L' && in_[next] != '[') continue;
-            if (variable_at(behind).empty()) continue;
+            if (variable_at(in_, behind).empty()) continue;
             while (behind < in_.size() && is_blank(in_[behind])) ++behind;
             if (behind < in_.size() && in_[behind] == '=') {
                 end = next;
@@ -157,7 +267,7 @@ std::string NumWords::assignment() {
 }
 
 // G79 N100, G79 L1 < 5 N100; `at`: behind G79.
-std::string NumWords::jump(std::size_t at) const {
+std::string NumWords::jump(std::size_t at) {
     const std::size_t to = in_.rfind('N');
     if (to == std::string::npos || to < at) return refused("79");
     const std::string_view digits = digits_at(in_, to + 1);
@@ -179,107 +289,17 @@ std::string NumWords::jump(std::size_t at) const {
 }
 
 // A word without a number has the value 0.
-bool NumWords::read_word(std::size_t& at, std::vector<Word>& words) const {
+bool NumWords::read_word(std::size_t& at, std::vector<NumWord>& words) {
     if (!is_letter(in_[at])) return false;
-    Word word;
+    NumWord word;
     word.address = in_[at++];
     if (word.address == "E" && at < in_.size() && is_letter(in_[at])) word.address += in_[at++];
     while (at < in_.size() && is_blank(in_[at])) ++at;
     if (at < in_.size() && (in_[at] == '-' || in_[at] == '+')) word.is_negative = in_[at++] == '-';
-    word.value = operand_at(at);
+    word.value = operand_at(in_, at);
     if (word.value.empty()) word.value = "0";
     words.push_back(word);
     return true;
-}
-
-std::string NumWords::in_words(std::vector<Word> words) const {
-    const auto find = [&](std::string_view address) {
-        return std::ranges::find(words, address, &Word::address);
-    };
-    const auto take = [&](std::string_view address) -> std::optional<std::string> {
-        const auto found = find(address);
-        if (found == words.end()) return std::nullopt;
-        const std::string value = found->is_negative ? "[0-" + found->value + "]" : found->value;
-        words.erase(found);
-        return value;
-    };
-    const auto has_code = [&](std::string_view code) {
-        return std::ranges::any_of(words, [&](const Word& w) { return w.address == "G" && w.value == code; });
-    };
-    // Codes with a reading of their own are not in the table.
-    for (const Word& word : words) {
-        constexpr std::array<std::string_view, 4> own{"4", "16", "77", "151"};
-        const bool is_known = word.address != "G" || std::ranges::find(own, word.value) != own.end() ||
-                              std::ranges::find(kCodes, word.value, &Renamed::num) != kCodes.end();
-        if (!is_known) return refused(word.value);
-    }
-    std::string out, cycle;
-    if (has_code("77")) {
-        std::vector<std::string> lines;
-        const auto program = take("H"), times = take("S");
-        while (const auto line = take("N")) lines.push_back(*line);
-        const std::string repeats = times ? "L" + *times : "";
-        if (words.size() == 1 && program && lines.empty()) return "M98P" + *program + repeats;
-        if (words.size() == 1 && !program && (lines.size() == 1 || lines.size() == 2))
-            return "M97P" + lines.front() + "Q" + lines.back() + repeats;
-        return refused("77");
-    }
-    if (has_code("4")) {
-        if (const auto seconds = take("F")) out += "X" + *seconds;
-    }
-    if (has_code("151") && find("S") != words.end() && words.size() == 2 && take("S") == "0") return "G49";
-    if (has_code("16")) {
-        // The spindle along +Z is the state at the start.
-        if (words.size() != 2 || find("R") == words.end() || find("R")->is_negative) return refused("16");
-        return {};
-    }
-    if (has_code("92") && (find("S") != words.end() || find("R") != words.end())) return {};
-    for (const Word& word : words) {
-        if (word.address == "G" && is_cycle(word.value)) cycle = word.value;
-    }
-    const bool is_compensated = has_code("41") || has_code("42");
-    if (!is_compensated) {
-        if (const auto offset = take("D")) out += *offset == "0" ? "G49 " : "G43 ";
-    }
-    if (has_code("59")) {
-        for (const char* turned : {"I", "J", "K", "ED"}) {
-            if (find(turned) != words.end()) return refused("59");
-        }
-    }
-    for (const Word& word : words) {
-        const std::string signed_value =
-            (word.is_negative ? "-" : "") +
-            (word.value.starts_with('#') && word.is_negative ? "[" + word.value + "]" : word.value);
-        if (word.address == "G") {
-            const auto known = std::ranges::find(kCodes, word.value, &Renamed::num);
-            if (known == kCodes.end() && word.value != "4") return refused(word.value);
-            out += known == kCodes.end() ? "G4 " : std::string(known->fanuc) + " ";
-        } else if (word.address == "EB") {
-            // Positive: a round corner; negative: a chamfer.
-            if (word.value.starts_with('#')) return refused("EB");
-            out += (word.is_negative ? ",C" : ",R") + word.value + " ";
-        } else if (word.address == "ER") {
-            out += "R" + signed_value + " ";
-        } else if (word.address == "EF") {
-            const bool dwells = cycle == "82" || cycle == "89";
-            if (dwells) out += "P[" + word.value + "*1000] ";
-        } else if (!cycle.empty() && word.address == "P") {
-            if (cycle == "83" || cycle == "87") out += "Q" + word.value + " ";
-        } else if (!cycle.empty() && word.address == "Q") {
-            continue;  // the last peck of some that grow shorter
-        } else if (!cycle.empty() && is_aside(word.address)) {
-            continue;
-        } else if (word.address.size() > 1) {
-            if (word.address != "EC") return refused(word.address);
-        } else if (word.address == "E") {
-            return refused("E" + word.value);
-        } else {
-            out += word.address + signed_value + " ";
-        }
-    }
-    if (cycle.empty()) return out;
-    // The tool returns to the plane of ER; without one, to where it is.
-    return "G99 " + out + (find("ER") == words.end() ? "R#5043" : "");
 }
 
 std::string NumWords::line(std::string_view text) {
@@ -320,7 +340,7 @@ std::string NumWords::line(std::string_view text) {
     in_ = trimmed(std::string_view(in_).substr(at));
     if (in_ == "VAR" || in_ == "ENDV" || all_digits(in_)) return head + comments;
     if (const std::string assigned = assignment(); !assigned.empty()) return head + assigned + comments;
-    std::vector<Word> words;
+    std::vector<NumWord> words;
     for (at = 0; at < in_.size();) {
         if (is_blank(in_[at])) {
             ++at;
@@ -332,11 +352,11 @@ std::string NumWords::line(std::string_view text) {
             return head + refused(words.back().address + words.back().value) + comments;
         }
     }
-    for (Word& word : words) {
+    for (NumWord& word : words) {
         const bool is_code = word.address == "G" || word.address == "M";
         while (is_code && word.value.size() > 1 && word.value[0] == '0') word.value.erase(0, 1);
     }
-    return head + in_words(std::move(words)) + comments;
+    return head + NumBlock(std::move(words)).in_fanuc_words() + comments;
 }
 
 void NumWords::end_program(std::vector<std::string>& lines) const {

@@ -14,6 +14,12 @@ namespace tribo::readers {
 // G79 N, G77 H, a cycle with ER.
 bool is_block_of_num(std::string_view block);
 
+struct NumWord {
+    std::string address;  // one letter, or two: EB
+    std::string value;    // a number or a variable of Fanuc
+    bool is_negative = false;
+};
+
 class NumWords {
   public:
     // The line in the words of Fanuc.
@@ -25,22 +31,15 @@ class NumWords {
     void end_program(std::vector<std::string>& lines) const;
 
   private:
-    struct Word {
-        std::string address;  // one letter, or two: EB
-        std::string value;    // a number, a variable, or a bracket
-        bool is_negative = false;
-    };
-
-    std::string variable_at(std::size_t& at) const;
-    std::string operand_at(std::size_t& at) const;
-    std::string formula(std::string_view text) const;
-    bool read_word(std::size_t& at, std::vector<Word>& words) const;
+    std::string variable_at(std::string_view text, std::size_t& at);
+    std::string operand_at(std::string_view text, std::size_t& at);
+    std::string formula(std::string_view text);
+    bool read_word(std::size_t& at, std::vector<NumWord>& words);
     std::string assignment();
-    std::string jump(std::size_t at) const;
-    std::string in_words(std::vector<Word> words) const;
+    std::string jump(std::size_t at);
 
-    std::string in_;  // the line, in upper case, without comments and messages
-    mutable std::map<std::string, int> names_;
+    std::string in_;                    // the line, in upper case, without comments and messages
+    std::map<std::string, int> names_;  // variables of Fanuc of the names in brackets
     int programs_ = 0;
     bool begins_program_ = false;
 };
