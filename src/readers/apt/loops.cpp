@@ -79,12 +79,12 @@ Result<void> Procedures::run_block(const std::vector<Statement>& statements, dou
     }
     const bool outside = std::exchange(in_block_, true);
     Result<void> done;
+    // The search for labels costs as much as a run of each statement.
+    count_ += statements.size();
     for (std::size_t i = 0; i < statements.size() && done;) {
         const Statement& statement = statements[i++];
-        if (++count_ > kMostStatements) {
-            done =
-                report_.refuse(statement.word, "macros, loops and copies run more than a million statements",
-                               "correct the calls and the conditions of the loops");
+        if (++count_ > most_statements_) {
+            done = refuse_more_statements(statement.word);
             break;
         }
         const auto jump = run_in_block(statement, unit_mm, run);

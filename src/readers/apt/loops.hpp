@@ -2,16 +2,12 @@
 // The words of loops and jumps in APT.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "readers/apt/lexer.hpp"
 
 namespace tribo::readers::apt {
-
-// Macros, copies and loops run no more statements.
-inline constexpr std::size_t kMostStatements = 1'000'000;
 
 // In upper case, without blanks around it.
 std::string upper(std::string_view text);

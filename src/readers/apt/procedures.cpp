@@ -14,6 +14,7 @@ namespace tribo::readers::apt {
 namespace {
 
 constexpr int kDeepest = 16;  // calls within each other
+constexpr std::size_t kMostRecorded = 1'000'000;
 constexpr double kMostCopies = 10'000;
 
 bool is_name(const std::string& text) {
@@ -88,9 +89,15 @@ Result<void> Procedures::finish() const {
                           "write TERMAC behind its last statement");
 }
 
+std::unexpected<Error> Procedures::refuse_more_statements(const Item& at) const {
+    return report_.refuse(
+        at, "macros, loops and copies run more than " + std::to_string(most_statements_) + " statements",
+        "write fewer copies, or correct the calls and the conditions of the loops");
+}
+
 Result<void> Procedures::run_one(const Statement& statement, const Frame& frame, const Run& run) {
     if (!indices_.empty()) {
-        if (recorded_.size() >= kMostStatements) {
+        if (recorded_.size() >= kMostRecorded) {
             return report_.refuse(statement.word, "copies of more than a million statements are not read",
                                   "let the CAM system write the copies as GOTO");
         }
@@ -157,6 +164,7 @@ Result<void> Procedures::call(const Statement& statement, double unit_mm, const 
         return report_.refuse(statement.word, "macros call each other too deeply", "correct the calls");
     const Macro& macro = found->second;
     const Names outside = names_;
+    count_ += names_.size();
     for (const auto& [name, value] : macro.values) names_[name] = {value};
     for (std::size_t i = 1; i < statement.items.size(); ++i) {
         auto [name, value] = sides_of(statement.items[i].text);
@@ -219,10 +227,8 @@ Result<void> Procedures::copy(const Statement& statement, double unit_mm, const 
                               "write a whole number up to 10000");
     const std::size_t begin = marked->second, end = recorded_.size();
     if (static_cast<double>(end - begin) * *times + static_cast<double>(count_) >
-        static_cast<double>(kMostStatements)) {
-        return report_.refuse(statement.word, "macros and copies run more than a million statements",
-                              "write fewer copies");
-    }
+        static_cast<double>(most_statements_))
+        return refuse_more_statements(statement.word);
     Frame frame;
     for (double i = 0; i < *times; ++i) {
         frame = *step * frame;

@@ -21,7 +21,9 @@ class Procedures {
     // Runs one plain statement in the copy of the program at `frame`.
     using Run = std::function<Result<void>(const Statement& statement, const Frame& frame)>;
 
-    explicit Procedures(Report& report) : report_(report) {}
+    // Macros, copies and loops run no more than `most_statements`.
+    Procedures(Report& report, std::size_t most_statements)
+        : report_(report), most_statements_(most_statements) {}
 
     // A=5, A=B*2+SINF(30), P1=POINT/x,y[,z], M=MACRO/A,B=2 to TERMAC, CALL/M,A=1, INDEX/n,
     // COPY/n,TRANSL,x,y,z,times and COPY/n,XYROT,angle,times and COPY/n,SAME,times; between LOOPST and LOOPND
@@ -61,7 +63,10 @@ class Procedures {
     Statement replaced(const Statement& statement);
     std::string_view kept(std::string text);
 
+    std::unexpected<Error> refuse_more_statements(const Item& at) const;
+
     Report& report_;
+    std::size_t most_statements_;
     Names names_;
     std::map<std::string, Macro> macros_;
     std::string defining_;         // the macro that is being defined; empty: none
@@ -72,7 +77,7 @@ class Procedures {
     std::map<int, std::size_t> indices_;
     std::vector<Recorded> recorded_;  // since the first INDEX
     std::deque<std::string> texts_;   // that replaced names
-    std::size_t count_ = 0;           // of the statements that macros and copies ran
+    std::size_t count_ = 0;           // of the statements that macros, copies and loops ran
     int depth_ = 0;
 };
 

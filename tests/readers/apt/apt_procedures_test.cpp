@@ -70,7 +70,7 @@ TEST(AptProcedures, EndCopiesOfCopies) {
     for (int i = 0; i < 30; ++i) text += "COPY/1,SAME,1\n";  // doubles each time
     const auto program = read_apt("UNITS/MM\nFEDRAT/100\nFROM/0,0,5\n" + text, {.source_name = "p.apt"});
     ASSERT_FALSE(program.has_value());
-    EXPECT_NE(program.error().cause.find("more than a million statements"), std::string::npos);
+    EXPECT_NE(program.error().cause.find("more than 1000000 statements"), std::string::npos);
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
         {"LOOPST\nIF (1/0) A,B,C\nLOOPND\n", 2, 1, "IF without a formula in brackets"},
         {"LOOPST\nIF (1\nLOOPND\n", 2, 1, "IF without a formula in brackets"},
         {"LOOPST\nIF (1) THEN\nLOOPND\n", 2, 1, "IF without labels and without a statement"},
-        {"LOOPST\nA) JUMPTO/A\nLOOPND\n", 2, 1, "more than a million statements"},
+        {"LOOPST\nA) JUMPTO/A\nLOOPND\n", 2, 1, "more than 1000000 statements"},
         {"COPY/1,SAME,2\n", 1, 1, "COPY without its INDEX"},
         {"INDEX/1\nCOPY/1,MODIFY,M,2\n", 2, 1, "COPY is read with SAME, TRANSL and XYROT"},
         {"INDEX/1\nCOPY/1,SAME,2.5\n", 2, 13, "COPY without a number of copies"},
