@@ -15,8 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     readers::AptOptions options;
     options.source_name = "fuzz.cl";
     options.default_feed_mm_per_min = 100;
-    options.max_steps = 20'000;
     options.max_moves = 20'000;
+    options.max_statements = 20'000;  // loops are no place to spend a fuzzer's time
     const auto program = readers::read_apt({reinterpret_cast<const char*>(data), size}, options);
     if (!program) {
         if (program.error().cause.empty() || program.error().remedy.empty()) std::abort();

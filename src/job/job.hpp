@@ -59,7 +59,7 @@ struct JobPath {
     std::string machine;                // of G-code: name of a machine, or its description file; may be empty
     std::string tools;                  // a tool table; may be empty
     std::optional<readers::Dialect> dialect;  // of G-code; absent: detected from the text
-    double unit_mm = 1;                       // of keyframes only
+    double unit_mm = 1;                       // of keyframes; of APT and NCI that state none, 1 or 25.4
 };
 
 // Defaults for values that the program does not state; 0: the program must state them.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/text/file_names.hpp"
+#include "readers/tables/tool_table.hpp"
 
 namespace tribo::job {
 namespace {
@@ -25,6 +26,13 @@ void MemorySource::put(std::string name, std::string bytes) {
 
 void MemorySource::clear() {
     files_.clear();
+}
+
+std::string MemorySource::tool_table() const {
+    for (const auto& [name, bytes] : files_) {
+        if (readers::is_tool_table(bytes, name)) return name;
+    }
+    return {};
 }
 
 // By its whole name. Files are dropped without their folders, so else by the last part of the name where only

@@ -19,6 +19,8 @@ class MemorySource final : public FileSource {
     // Names may contain folders ("bowl/bowl.csv"). An existing file is replaced.
     void put(std::string name, std::string bytes);
     void clear();
+    // The first file that is a tool table or library; empty: there is none.
+    std::string tool_table() const;
 
     FileResult<std::string> read(const std::string& path, std::uint64_t limit_bytes) const override;
     // glTF is refused: the module of the page does not contain the library of its reader.

@@ -13,6 +13,7 @@
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/din_iso.hpp"
 #include "readers/heidenhain/reader.hpp"
+#include "readers/nci/reader.hpp"
 #include "readers/siemens/reader.hpp"
 #include "readers/tables/keyframes_csv.hpp"
 #include "readers/tables/tool_table.hpp"
@@ -37,6 +38,7 @@ constexpr std::array kExtensions{
     Extension{".cldata", PathKind::apt},    Extension{".cl", PathKind::apt},
     Extension{".aptsource", PathKind::apt}, Extension{".ncl", PathKind::apt},
     Extension{".i", PathKind::gcode},       Extension{".csv", PathKind::keyframes},
+    Extension{".nci", PathKind::apt},       Extension{".xpi", PathKind::gcode},
 };
 
 // Of a line of APT, in lower case. The first two are comments of Creo and CATIA.
@@ -67,6 +69,7 @@ bool begins_like_gcode(std::string_view line) {
 }
 
 std::optional<PathKind> detect_by_content(std::string_view bytes) {
+    if (readers::looks_like_nci(bytes)) return PathKind::apt;
     const std::string text = lower(bytes.substr(0, kLookedAt));
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
@@ -106,10 +109,12 @@ Result<motion::Program> parse_apt(std::string_view bytes, const std::string& pat
                                   const ProgramFileOptions& options) {
     readers::AptOptions apt;
     apt.source_name = path;
+    if (options.unit_mm == readers::mm_per(readers::LengthUnit::inch))
+        apt.default_unit = readers::LengthUnit::inch;
     apt.default_feed_mm_per_min = options.default_feed_mm_per_min;
     apt.max_moves = options.max_moves;
     apt.refusals = options.refusals;
-    return readers::read_apt(bytes, apt);
+    return readers::looks_like_nci(bytes) ? readers::read_nci(bytes, apt) : readers::read_apt(bytes, apt);
 }
 
 Result<motion::Program> parse_din_iso(std::string_view bytes, const readers::GcodeOptions& options,
@@ -141,7 +146,9 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     }
     gcode.missing_programs = options.missing_programs;
     if (!options.dialect && readers::looks_like_din_iso(bytes)) return parse_din_iso(bytes, gcode, sink);
-    const auto other = options.dialect ? std::nullopt : readers::detect_other_control(bytes);
+    const auto other = options.dialect == readers::Dialect::num ? readers::OtherControl::num
+                       : options.dialect                        ? std::optional<readers::OtherControl>()
+                                                                : readers::detect_other_control(bytes);
     std::string in_fanuc_words;
     if (other) {
         in_fanuc_words = readers::in_fanuc_words(bytes, *other);
@@ -182,6 +189,7 @@ std::optional<PathKind> detect_program(std::string_view bytes, const std::string
 
 readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
                                     const ProgramFileOptions& options) {
+    if (options.dialect == readers::Dialect::num) return readers::Dialect::fanuc;
     if (options.dialect) return *options.dialect;
     if (readers::looks_like_din_iso(bytes)) return readers::Dialect::heidenhain;
     if (readers::detect_other_control(bytes)) return readers::Dialect::fanuc;

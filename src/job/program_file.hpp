@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads tool paths in any of the three formats as one list of moves.
+// Reads tool paths in any of the formats as one list of moves.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kLargestToolTableBytes = std::uint64_t{16} << 20;
 
 struct ProgramFileOptions {
     double default_feed_mm_per_min = 0;  // if the program has none; 0: such G-code and APT is refused
-    double unit_mm = 1;                  // of keyframes
+    double unit_mm = 1;                  // of keyframes, and of APT and NCI that state none
     motion::Interpolation interpolation = motion::Interpolation::spline;  // of keyframes
     std::optional<readers::Dialect> dialect{};    // of G-code; absent: detected from the text, else LinuxCNC
     std::vector<motion::DeclaredTool> tools{};    // of tool table or job; they override those of the program
@@ -39,7 +39,8 @@ struct ProgramFileOptions {
 // Empty if the file is no program.
 std::optional<PathKind> detect_program(std::string_view bytes, const std::string& path);
 
-// The control of G-code: by the options, the text, the file's name; else LinuxCNC.
+// The control of G-code: by the options, the text, the file's name; else LinuxCNC. Fanuc for the controls
+// whose programs are read in its words.
 readers::Dialect dialect_of_program(std::string_view bytes, const std::string& path,
                                     const ProgramFileOptions& options);
 

@@ -14,6 +14,13 @@ namespace {
 // A module can hold 4 GB, and the page of a phone much less.
 constexpr double kMostBytes = 1.2e9;
 
+job::LoadOptions limits_of(const job::MemorySource& files) {
+    job::LoadOptions limits;
+    limits.memory_bytes = static_cast<std::uint64_t>(kMostBytes);
+    limits.program.tool_table = files.tool_table();
+    return limits;
+}
+
 Result<void> check_memory(const session::MillSetup& setup, const std::string& name) {
     const auto shortage =
         session::memory_shortage(setup, kMostBytes, [](const session::MemoryEstimate& estimate, double cell) {
@@ -33,11 +40,10 @@ Result<void> check_memory(const session::MillSetup& setup, const std::string& na
 
 }  // namespace
 
-Result<session::LiveInput> load_mill(const job::FileSource& files, const std::string& name,
+Result<session::LiveInput> load_mill(const job::MemorySource& files, const std::string& name,
                                      const std::string& part, std::optional<double> cell_mm) {
-    job::LoadOptions limits;
+    job::LoadOptions limits = limits_of(files);
     limits.part = part;
-    limits.memory_bytes = static_cast<std::uint64_t>(kMostBytes);
     auto loaded = job::load_job(files, name, limits);
     if (!loaded) return std::unexpected(Error(loaded.error()));
     session::LiveExtras told;
@@ -54,9 +60,8 @@ Result<session::LiveInput> load_mill(const job::FileSource& files, const std::st
     return session::LiveInput(*std::move(setup), std::move(told));
 }
 
-Result<std::string> job_of_program(const job::FileSource& files, const std::string& name) {
-    job::LoadOptions limits;
-    limits.memory_bytes = static_cast<std::uint64_t>(kMostBytes);
+Result<std::string> job_of_program(const job::MemorySource& files, const std::string& name) {
+    const job::LoadOptions limits = limits_of(files);
     auto loaded = job::load_job(files, name, limits);
     if (!loaded) return std::unexpected(Error(loaded.error()));
     if (!loaded->is_program) return fail_at(name, 0, 0, "this is a job already", "read the file itself");

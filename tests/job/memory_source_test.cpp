@@ -3,6 +3,9 @@
 #include "job/memory_source.hpp"
 
 #include <gtest/gtest.h>
+#include <utility>
+
+#include "job/loader.hpp"
 
 namespace tribo::job {
 namespace {
@@ -26,6 +29,37 @@ TEST(MemorySource, finds_a_file_by_its_whole_name_or_by_the_only_one_of_its_last
     EXPECT_EQ(files.read("other/bowl.csv", 10).value(), "d");
     files.clear();
     EXPECT_FALSE(files.read("plate.nc", 10));
+}
+
+TEST(MemorySource, tells_a_tool_library_from_other_files) {
+    for (const auto& [name, text] : {std::pair{"mill.tbl", "T1 P1 D6\n"},
+                                     {"a/My.JSON", "{\"data\":[]}"},
+                                     {"bit.fctb", "{}"},
+                                     {"shop.xml", "<a/>"},
+                                     {"t.tools", "PK"},
+                                     {"tools.csv", "number,diameter_mm\n1,6\n"},
+                                     {"hsm.csv", "Number (tool_number),Diameter (tool_diameter)\n"}}) {
+        MemorySource files;
+        files.put("part.nc", "G21\n");
+        files.put("path.csv", "x,y,z,i,j,k\n");
+        files.put("job.toml", "[path]\n");
+        EXPECT_EQ(files.tool_table(), "") << name;
+        files.put(name, text);
+        EXPECT_EQ(files.tool_table(), name);
+    }
+}
+
+TEST(MemorySource, gives_a_program_the_tools_of_its_library) {
+    MemorySource files;
+    files.put("p.nc", "G21 G90 T2 M6\nS1000 M3 F100\nG0 X0 Y0 Z5\nG1 Z-1\nX10\nM30\n");
+    files.put("mill.tbl", "T1 P1 D3\nT2 P2 D7.5\n");
+    LoadOptions options;
+    options.program.tool_table = files.tool_table();
+    const auto loaded = load_job(files, "p.nc", options);
+    ASSERT_TRUE(loaded) << loaded.error().text();
+    ASSERT_EQ(loaded->job.cutters.size(), 1U);
+    EXPECT_EQ(loaded->job.cutters[0].number, 2);
+    EXPECT_EQ(loaded->job.cutters[0].diameter_mm, 7.5);
 }
 
 TEST(MemorySource, refuses_what_is_longer_than_its_kind_may_be) {

@@ -52,6 +52,8 @@ std::string control_of(const std::string& name) {
                                                       {"okuma2", "Okuma OSP"},
                                                       {"fagor", "Fagor 8055"},
                                                       {"iso", "Heidenhain DIN/ISO"},
+                                                      {"nci", "Mastercam NCI"},
+                                                      {"num", "NUM"},
                                                       {"apt", ""}};
     return controls.at(name.substr(0, name.find_first_of("_.")));
 }
@@ -65,6 +67,9 @@ TEST(Posts, of_each_control_read) {
         {"haas_holes.nc", 13 * 0.6 * 25.4},
         {"g66.nc", 2 * 12},
         {"hypermill_heid.h", 11 + 10},
+        {"num_1060.xpi", 2 * (35 + 5 * M_PI / 2 + 15) + (5 + 2) + (5 + 4) + 2 * 10 + 10},
+        {"fagor_rpt.pim", 3 * (std::hypot(5, 1) + 1) + 5 * M_PI},
+        {"nci_mastercam.nci", 4 + 40 + 5 * M_PI + 20},
     };
     int count = 0;
     for (const auto& entry :

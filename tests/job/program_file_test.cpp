@@ -28,6 +28,8 @@ TEST(ProgramFormat, is_told_by_the_extension_and_else_by_the_content) {
         {"b.ncl.1", "$$*          Pro/CLfile\n", PathKind::apt},
         {"b.txt", "TOOL PATH/A,TOOL,B\n", PathKind::apt},
         {"b", "$$ comment\nGOTO  / 1,2,3\n", PathKind::apt},
+        {"b.nci", "", PathKind::apt},
+        {"b", "1050\n9 3 PART\n1013\n0 10. 0.\n", PathKind::apt},
         {"c.txt", "X,Y,Z,I,J,K\n0,0,0,0,0,1\n", PathKind::keyframes},
         {"d", "dear diary\n", std::nullopt},
         {"d", "", std::nullopt},

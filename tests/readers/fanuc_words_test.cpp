@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "readers/gcode/gcode_text.hpp"
+#include "readers/one_path.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
@@ -75,12 +76,113 @@ TEST(FanucWords, of_fagor_mean_what_fagor_means) {
     const motion::Program mirrored = read(kFagor + "G11\nG1 X10 Y5\nG10\nX10\n", OtherControl::fagor);
     EXPECT_EQ(mirrored.moves.at(0).end.tip_mm, (Vec3{-10, 5, 5}));
     EXPECT_EQ(mirrored.moves.at(1).end.tip_mm, (Vec3{10, 5, 5}));
-    for (const char* text : {"G8 X5 Y5\n", "G9 X5 Y5 I1 J1\n", "G93 I1 J1\n", "G69 X1 Z2 I-9\n"}) {
+    for (const char* text : {"G8 R5 Q5\n", "G9 X5 Y5 I1\n", "G93 I1 J1\n", "G69 X1 Z2 I-9\n"}) {
         EXPECT_NE(fault(kFagor + text, OtherControl::fagor).find("FAGORG"), std::string::npos) << text;
     }
-    EXPECT_NE(fault(kFagor + "(RPT N10,N20) N2\n", OtherControl::fagor).find("'RPT'"), std::string::npos);
+    EXPECT_NE(fault(kFagor + "(RPT 10,20)\n", OtherControl::fagor).find("'RPT'"), std::string::npos);
     // A comment stays one.
     EXPECT_NEAR(feed_mm(read(kFagor + "(PART 1)\nG1 X3\n", OtherControl::fagor)), 3, 1e-12);
+}
+
+void expect_same(std::string_view text, OtherControl control, const std::string& gcode) {
+    GcodeOptions options;
+    options.dialect = GcodeDialect::fanuc;
+    expect_one_path(read(text, control), read_gcode(gcode, options), std::string(text).c_str());
+}
+
+TEST(FanucWords, of_fagor_repeat_lines) {
+    const std::string start = "G90 G21 G17 F100 S500 M3\nG0 X0 Y0 Z5\n", step = "G91 G1 X2\nY3\nG90\n";
+    const std::string once = "N30 G91 G1 X2\nN40 Y3\nN50 G90\n";
+    // N2: twice more, behind the lines and within a repetition of its own.
+    expect_same(kFagor + once + "N60 (RPT N30,N50) N2\nN70 G1 X0\n", OtherControl::fagor,
+                start + step + step + step + "G1 X0\n");
+    expect_same(kFagor + once + "N60 (RPT N30,N50)\nN65 Z7\nN70 (RPT N60,N65) N2\nN80 X0\n",
+                OtherControl::fagor, start + step + step + "Z7\n" + step + "Z7\n" + step + "Z7\nX0\n");
+    EXPECT_NE(fault(kFagor + once + "(RPT N40,N99) N2\n", OtherControl::fagor).find("have no N99"),
+              std::string::npos);
+    EXPECT_NE(fault(kFagor + "N30 X1\n(RPT N30,N50)\nN50 X2\n", OtherControl::fagor).find("their own call"),
+              std::string::npos);
+}
+
+TEST(FanucWords, of_fagor_have_arcs_by_centre_and_by_three_points) {
+    const std::string start = "G90 G21 G17 F100 S500 M3\nG0 X0 Y0 Z5\n";
+    expect_same(kFagor + "G1 X10 Y5\nG06 G3 X20 Y15 I10 J15\nG3 X30 Y25 I0 J10\n", OtherControl::fagor,
+                start + "G1 X10 Y5\nG3 X20 Y15 I0 J10\nG3 X30 Y25 I0 J10\n");
+    // Tangent arcs: two quarters to the left and one to the right; behind a rapid, and in a mirror image.
+    expect_same(kFagor +
+                    "G1 X10\nG8 X20 Y10\nG08 X10 Y20\nG8 X0 Y30\nG1 X5\nG91 G8 Y4\nG90 G0 X0 Y0\nG0 Y10\nG8 "
+                    "X-5 Y15\nG11\nG1 X10 Y15\nG8 X20 Y25\n",
+                OtherControl::fagor,
+                start +
+                    "G1 X10\nG3 X20 Y10 I0 J10\nG3 X10 Y20 I-10 J0\nG2 X0 Y30 I0 J10\nG1 X5\nG3 Y34 I0 J2\n"
+                    "G0 X0 Y0\nG0 Y10\nG3 X-5 Y15 I-5 J0\nG1 X-10 Y15\nG2 X-20 Y25 I0 J10\n");
+    // Half a circle about (10, 0), to the left and to the right; then as increments.
+    expect_same(kFagor +
+                    "G1 X0\nG9 X20 Y0 I10 J10\nG9 X40 Y0 I30 J-10\nG91 G9 X10 Y10 I2.92893218813452 "
+                    "J7.07106781186548\n",
+                OtherControl::fagor,
+                start + "G1 X0\nG2 X20 Y0 I10 J0\nG3 X40 Y0 I10 J0\nG2 X50 Y10 I10 J0\n");
+}
+
+// What begins the programs of both below.
+const std::string kNum = "%1000\n(PLATE)\nG71 G90 G17 G40 G80 D1\nF100 S500 M03\nG0 X0 Y0 Z5\n";
+const std::string kNumInFanuc = "O1000\nG21 G90 G17\nF100 S500 M3\nG0 X0 Y0 Z5\n";
+
+TEST(FanucWords, of_num_have_variables_jumps_and_calls) {
+    // A loop of three steps, lines again, a subprogram twice, a name, a word without a number.
+    expect_same(
+        kNum +
+            "L0=0 L1 = 4\nN10 L0 = L0+L1\nG1 XL0 Y-L1\nG79 L0 < 12 N10\nG77 N20 N30 S2\n"
+            "N20 G91 Z-1\nN30 G90 X\nG77 H50 S2\nG79 N90\nX99\nN90 [DEPTH]=-3\nZ[DEPTH] F[RATE]\nM02\n"
+            "%50 (STEP)\nG91 Y2\nG90\n%60\nX5\n",
+        OtherControl::num,
+        kNumInFanuc +
+            "G1 X4 Y-4\nX8\nX12\nG91 Z-1\nG90 X0\nG91 Z-1\nG90 X0\nG91 Z-1\nG90 X0\nG91 Y2\n"
+            "Y2\nG90 Z-3\nM2\n");
+    const motion::Program counted = read(kNum + "G79 N40\nX9\nN40 G1 X7\n", OtherControl::num);
+    EXPECT_EQ(counted.moves.back().line, 8);
+}
+
+TEST(FanucWords, of_num_have_corners_cycles_and_dwells) {
+    expect_same(kNum + "G79 N5\nN5 G1 X40 EB5\nY40 EB-2\nX0\nG4 F2\n", OtherControl::num,
+                kNumInFanuc + "G1 X40 ,R5\nY40 ,C2\nX0\nG4 X2\n");
+    // The tool returns to the plane of ER, or to where it is.
+    expect_same(kNum + "G0 Z20\nG81 X10 Y5 Z-8 ER2 F60\nX30\nG80\nG83 X50 Z-6 ER1 P2 F80\nG80 Z20\n",
+                OtherControl::num,
+                kNumInFanuc +
+                    "G0 Z20\nG99 G81 X10 Y5 Z-8 R2 F60\nX30\nG80\nG99 G83 X50 Y5 Z-6 R1 Q2 F80\nG80\n"
+                    "G0 Z20\n");
+    expect_same(kNum + "G79 N5\nN5 G87 X10 Z-5 P2 F60\nG80\nG82 X20 Z-3 ER2 EF1.5\nG80\n", OtherControl::num,
+                kNumInFanuc + "G99 G73 X10 Y0 Z-5 R5 Q2 F60\nG80\nG99 G82 X20 Z-3 R2 P1500\nG80\n");
+    expect_same(kNum + "G79 N5\nN5 G59 X10 Y20\nG1 X5 Y5 $ A MESSAGE\nG59 X Y\nG16 R+\nX1 Y1\n",
+                OtherControl::num, kNumInFanuc + "G52 X10 Y20\nG1 X5 Y5\nG52 X0 Y0\nX1 Y1\n");
+}
+
+TEST(FanucWords, of_num_that_have_none_are_refused) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"G45 X1 Y1 Z-5 EX9 EY9\n", "GNUM45"},
+        {"G1 X5 EA30\n", "GNUMEA"},
+        {"L1=L2+L3*2\n", "GNUMORDER"},
+        {"L1=SL2\n", "GNUMFUNCTION"},
+        {"G79 L1 5 N10\n", "GNUM79"},
+        {"G77 H5 N1 N2\n", "GNUM77"},
+        {"E60001=5\n", "GNUM"},
+        {"G81 X1 Z-5 EH2\n", "GNUMEH"},
+        {"G83 Z-5 ER1 ES3\n", "GNUMES"},
+        {"G59 I1 J1 ED30\n", "GNUM59"},
+        {"G53\n", "GNUM53"},
+        {"G51 X-\n", "GNUM51"},
+        {"G16 P+\n", "GNUM16"},
+        {"G1 X5 EBL1\n", "GNUMEB"},
+        {"G10 X5\n", "GNUM10"},
+        {"G12\n", "GNUM12"},
+        {"ED45\n", "GNUMED"},
+        {"G88 X1 Z-5 ER1\n", "GNUM88"},
+    };
+    for (const auto& [text, name] : cases) {
+        EXPECT_NE(fault(kNum + "G79 N5\nN5\n" + text, OtherControl::num).find(name), std::string::npos)
+            << text << fault(kNum + "G79 N5\nN5\n" + text, OtherControl::num);
+    }
 }
 
 TEST(FanucWords, keep_the_lines_and_leave_other_programs_alone) {
@@ -89,7 +191,7 @@ TEST(FanucWords, keep_the_lines_and_leave_other_programs_alone) {
         EXPECT_FALSE(detect_other_control(text).has_value()) << text;
     }
     const std::string ugly = "VC1=\n((((\nN\nX=\nIF [\nCALL\n(IF\n(P1=\nG\n\xff\xfe\nVC99999999=1\n";
-    for (const OtherControl control : {OtherControl::okuma, OtherControl::fagor}) {
+    for (const OtherControl control : {OtherControl::okuma, OtherControl::fagor, OtherControl::num}) {
         const std::string translated = in_fanuc_words(ugly, control);
         EXPECT_EQ(std::count(translated.begin(), translated.end(), '\n'), 11);
     }

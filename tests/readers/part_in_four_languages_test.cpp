@@ -9,6 +9,7 @@
 #include "readers/apt/reader.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/reader.hpp"
+#include "readers/one_path.hpp"
 #include "readers/program_checks.hpp"
 #include "readers/siemens/reader.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -41,34 +42,7 @@ std::string apt_point(double x, double y, double z) {
     return "GOTO/" + number(x) + "," + number(y) + "," + number(z) + "\n";
 }
 
-// The tool at steps of 0.25 mm of the whole path, and at its end.
-std::vector<motion::ToolPose> samples_of(const motion::Program& program) {
-    std::vector<motion::ToolPose> samples;
-    double next = 0, reached = 0;
-    for (const motion::Move& move : program.moves) {
-        const double length = motion::path_length_mm(move);
-        for (; length > 0 && next <= reached + length; next += 0.25) {
-            samples.push_back(motion::pose_at(move, (next - reached) / length));
-        }
-        reached += length;
-    }
-    samples.push_back(program.moves.back().end);
-    return samples;
-}
-
-void expect_one_path(const motion::Program& one, const Result<motion::Program>& other, const char* language) {
-    ASSERT_TRUE(other.has_value()) << language << ": " << other.error().text();
-    EXPECT_NEAR(feed_mm(one), feed_mm(*other), 1e-3) << language;
-    EXPECT_NEAR(rapid_mm(one), rapid_mm(*other), 1e-3) << language;
-    const auto a = samples_of(one), b = samples_of(*other);
-    ASSERT_EQ(a.size(), b.size()) << language;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        ASSERT_LT(distance(a[i].tip_mm, b[i].tip_mm), 1e-3) << language << " at sample " << i;
-        ASSERT_LT(distance(a[i].axis, b[i].axis), 1e-6) << language << " at sample " << i;
-    }
-}
-
-void expect_one_path(const Feature& feature, double feed_length_mm) {
+void expect_one_part(const Feature& feature, double feed_length_mm) {
     GcodeOptions options;
     options.tools = {{1, 6}};
     const auto siemens = read_siemens(kSiemensStart + feature.siemens, options);
@@ -95,7 +69,7 @@ TEST(PartInFourLanguages, PocketWithCompensation) {
         "RAPID\nGOTO/0,0,10\nFEDRAT/200,MMPM\nGOTO/0,0,-3\nFEDRAT/500,MMPM\nGOTO/20,3,-3\nGOTO/60,3,-3\n"
         "CIRCLE/60,20,-3,0,0,1,17\nGOTO/77,20,-3\nGOTO/77,40,-3\nCIRCLE/60,40,-3,0,0,1,17\nGOTO/60,57,-3\n"
         "GOTO/20,57,-3\nGOTO/0,60,-3\nRAPID\nGOTO/0,60,10\n"};
-    expect_one_path(feature, 13 + 2 * std::hypot(20, 3) + 80 + 20 + 17 * kPi);
+    expect_one_part(feature, 13 + 2 * std::hypot(20, 3) + 80 + 20 + 17 * kPi);
 }
 
 TEST(PartInFourLanguages, BoltCircle) {
@@ -111,7 +85,7 @@ TEST(PartInFourLanguages, BoltCircle) {
         "Z2\n#1=0\nWHILE[#1LT6]DO1\nG99G81X[30*COS[60*#1]]Y[30*SIN[60*#1]]Z-8R2F100\n#1=#1+1\nEND1\n"
         "G80\n",
         apt + "CYCLE/OFF\n"};
-    expect_one_path(feature, 6 * 10);
+    expect_one_part(feature, 6 * 10);
 }
 
 TEST(PartInFourLanguages, TiltedPlane) {
@@ -130,7 +104,7 @@ TEST(PartInFourLanguages, TiltedPlane) {
         "MULTAX/ON\nRAPID\n" + at(0, 0, 20) + "FEDRAT/300,MMPM\n" + at(0, 0, -1) + at(30, 0, -1) + "CIRCLE/" +
             number(10 + c * 30 - s) + ",15," + number(-c - s * 30) + "," + number(s) + ",0," + number(c) +
             ",10\n" + at(30, 20, -1)};
-    expect_one_path(feature, 21 + 30 + 10 * kPi);
+    expect_one_part(feature, 21 + 30 + 10 * kPi);
 }
 
 TEST(PartInFourLanguages, Loop) {
@@ -148,7 +122,7 @@ TEST(PartInFourLanguages, Loop) {
         "G0 X0 Y0 Z0\n#1=1\nN10 IF[#1GT5]GOTO20\nG1X[10+#1]F400\nG91G3X0Y4R2\nG90G1X0\n#1=#1+1\nGOTO10\n"
         "N20M30\n",
         apt};
-    expect_one_path(feature, 5 * (2 * 13 + 2 * kPi));
+    expect_one_part(feature, 5 * (2 * 13 + 2 * kPi));
 }
 
 // A rational curve of second degree over 0 to 2, with knots 0 0 0 1 2 2 2 (De Boor 1972).
@@ -236,7 +210,7 @@ TEST(PartInFourLanguages, FiveAxisSwarf) {
                               signed_word("TX", u) + signed_word("TY", v) + "TZ+1 F600\n";
         feature.apt += "GOTO/" + number(x) + "," + number(y) + ",-5," + number(u) + "," + number(v) + ",1\n";
     }
-    expect_one_path(feature, length);
+    expect_one_part(feature, length);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "files/machine_limits.hpp"
 #include "job/program_file.hpp"
 #include "motion/path/path.hpp"
+#include "readers/nci/reader.hpp"
 #include "readers/rewrite/feed_words.hpp"
 #include "readers/rewrite/unrolled.hpp"
 #include "tribo/threads.hpp"
@@ -36,6 +37,10 @@ FileResult<readers::FeedLanguage> language_of(const job::Job& job, std::string_v
     if (job.path.kind == job::PathKind::keyframes)
         return std::unexpected(FileFailure(Error{
             job.path.file, 0, 0, "keyframes have no feed words in blocks", "write the path as a program"}));
+    if (readers::looks_like_nci(text))
+        return std::unexpected(
+            FileFailure(Error{job.path.file, 0, 0, "the feeds of an NCI file are parameters of its records",
+                              "let Mastercam post it, and change the program"}));
     if (job.path.kind == job::PathKind::apt) return readers::FeedLanguage::apt;
     job::ProgramFileOptions told;
     told.dialect = job.path.dialect;

@@ -94,7 +94,7 @@ CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& descri
         ->type_name("NAME|F.toml")
         ->group(group);
     verb.add_option("--dialect", flags.dialect,
-                    "linuxcnc, fanuc, siemens or heidenhain; else told by the text")
+                    "linuxcnc, fanuc, siemens, heidenhain or num; else told by the text")
         ->check(one_of({readers::kDialectWords.begin(), readers::kDialectWords.end()}))
         ->type_name("NAME")
         ->group(group);

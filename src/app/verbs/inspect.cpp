@@ -223,7 +223,7 @@ void add_inspect(CLI::App& program, int& exit_code) {
     verb->add_option("--machine", call->machine, "Read rotary words of G-code on this machine")
         ->type_name("NAME|F.toml");
     verb->add_option("--dialect", call->dialect,
-                     "Read G-code as linuxcnc, fanuc, siemens or heidenhain; else told by the text")
+                     "Read G-code as linuxcnc, fanuc, siemens, heidenhain or num; else told by the text")
         ->check(one_of({readers::kDialectWords.begin(), readers::kDialectWords.end()}))
         ->type_name("NAME");
     verb->callback([call, &exit_code] { exit_code = inspect(*call); });

@@ -139,11 +139,13 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
         section.fail("", "[path] names no program",
                      "write keyframes = \"F.csv\", gcode = \"F.ngc\" or apt = \"F.apt\"");
     }
-    for (const std::string_view key : {"interpolation"sv, "unit_mm"sv}) {
-        if (path.kind != PathKind::keyframes && section.has(key)) {
-            section.fail(key, "'" + std::string(key) + "' belongs to keyframes",
-                         "remove it: the program says it itself");
-        }
+    if (path.kind != PathKind::keyframes && section.has("interpolation")) {
+        section.fail("interpolation", "'interpolation' belongs to keyframes",
+                     "remove it: the program says it itself");
+    }
+    if (path.kind == PathKind::gcode && section.has("unit_mm")) {
+        section.fail("unit_mm", "'unit_mm' belongs to keyframes and APT",
+                     "remove it: the program says it itself");
     }
     if (path.kind != PathKind::gcode && section.has("machine")) {
         section.fail("machine", "'machine' belongs to G-code: other paths hold the tool's axis already",
@@ -170,6 +172,8 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
         if (!known) section.fail("machine", known.error().cause, known.error().remedy);
     }
     path.unit_mm = read_unit_mm(section).value_or(1);
+    if (path.kind == PathKind::apt && path.unit_mm != 1 && path.unit_mm != 25.4)
+        section.fail("unit_mm", "the points of APT are millimetres or inches", "write 1 or 25.4");
     return path;
 }
 

@@ -6,19 +6,15 @@
 #include <utility>
 
 #include "base/math.hpp"
-#include "readers/text/decimal_text.hpp"
+#include "base/text/decimal.hpp"
+#include "readers/apt/formula.hpp"
+#include "readers/apt/loops.hpp"
 
 namespace tribo::readers::apt {
 namespace {
 
 constexpr int kDeepest = 16;  // calls within each other
 constexpr double kMostCopies = 10'000;
-
-std::string upper(std::string_view text) {
-    std::string out(trimmed(text));
-    std::transform(out.begin(), out.end(), out.begin(), to_upper);
-    return out;
-}
 
 bool is_name(const std::string& text) {
     return !text.empty() && is_letter(text[0]) && std::all_of(text.begin(), text.end(), [](char c) {
@@ -50,7 +46,25 @@ Result<void> Procedures::take(const Statement& statement, double unit_mm, const 
         }
         return {};
     }
+    if (loops_ > 0) {
+        if (!is_plain && matches(statement.word.text, "LOOPST")) ++loops_;
+        if (is_plain || !matches(statement.word.text, "LOOPND") || --loops_ > 0) {
+            loop_.push_back(statement);
+            return {};
+        }
+        const std::vector<Statement> statements = std::exchange(loop_, {});
+        return run_block(statements, unit_mm, run);
+    }
     if (is_plain) return run_one(statement, run);
+    if (!in_block_ && matches(statement.word.text, "LOOPST")) {
+        loop_at_ = statement.word;
+        loops_ = 1;
+        return {};
+    }
+    if (is_jump(statement.word.text)) {
+        return report_.refuse(statement.word, "a jump outside of a loop and a macro",
+                              "write LOOPST before it and its labels, and LOOPND behind them");
+    }
     const auto defined = define(statement);
     if (!defined) return std::unexpected(defined.error());
     if (*defined) return {};
@@ -67,9 +81,17 @@ Result<void> Procedures::take(const Statement& statement, double unit_mm, const 
 }
 
 Result<void> Procedures::finish() const {
+    if (loops_ > 0)
+        return report_.refuse(loop_at_, "LOOPST without its LOOPND", "write LOOPND behind the loop");
     if (defining_.empty()) return {};
     return report_.refuse(macros_.at(defining_).at, "the macro " + defining_ + " has no TERMAC",
                           "write TERMAC behind its last statement");
+}
+
+std::unexpected<Error> Procedures::refuse_more_statements(const Item& at) const {
+    return report_.refuse(
+        at, "macros, loops and copies run more than " + std::to_string(most_statements_) + " statements",
+        "write fewer copies, or correct the calls and the conditions of the loops");
 }
 
 Result<void> Procedures::run_one(const Statement& statement, const Run& run) {
@@ -81,15 +103,9 @@ Result<void> Procedures::run_one(const Statement& statement, const Run& run) {
 }
 
 Result<void> Procedures::record(const Recorded& recorded) {
-    if (recorded_.size() >= most_statements_) return refuse_endless(recorded.statement->word);
+    if (recorded_.size() >= most_statements_) return refuse_more_statements(recorded.statement->word);
     recorded_.push_back(recorded);
     return {};
-}
-
-std::unexpected<Error> Procedures::refuse_endless(const Item& at) const {
-    return report_.refuse(
-        at, "macros and copies run more than " + std::to_string(most_statements_) + " statements",
-        "correct the calls, or let the CAM system write the points");
 }
 
 // A name on the left of '='. Returns false for other statements, and for geometry that has no points.
@@ -111,8 +127,15 @@ Result<bool> Procedures::define(const Statement& statement) {
         return true;
     }
     const auto known = names_.find(what);
-    if (!statement.items.empty() || !(number_of(what) || known != names_.end())) return false;
-    names_[name] = known != names_.end() ? known->second : std::vector<std::string>{what};
+    if (statement.items.empty() && known != names_.end()) {
+        names_[name] = std::vector<std::string>(known->second);
+        return true;
+    }
+    // A slash of the formula stands where that of a statement does.
+    const std::string text = whole(statement);
+    const auto number = value(text.substr(text.find('=') + 1));
+    if (!number) return false;
+    names_[name] = {format_decimal(*number)};
     return true;
 }
 
@@ -143,6 +166,7 @@ Result<void> Procedures::call(const Statement& statement, double unit_mm, const 
         return report_.refuse(statement.word, "macros call each other too deeply", "correct the calls");
     const Macro& macro = found->second;
     const Names outside = names_;
+    count_ += names_.size();
     for (const auto& [name, value] : macro.values) names_[name] = {value};
     for (std::size_t i = 1; i < statement.items.size(); ++i) {
         auto [name, value] = sides_of(statement.items[i].text);
@@ -153,14 +177,9 @@ Result<void> Procedures::call(const Statement& statement, double unit_mm, const 
         names_[name] = known != outside.end() ? known->second : std::vector<std::string>{value};
     }
     ++depth_;
-    Result<void> done;
-    for (std::size_t i = 0; i < macro.statements.size() && done; ++i) {
-        if (++count_ > most_statements_) {
-            done = refuse_endless(statement.word);
-            break;
-        }
-        done = take(macro.statements[i], unit_mm, run);
-    }
+    // A copy: a macro may define itself anew while it runs.
+    const std::vector<Statement> statements = macro.statements;
+    const Result<void> done = run_block(statements, unit_mm, run);
     --depth_;
     names_ = outside;
     return done;
@@ -210,9 +229,8 @@ Result<void> Procedures::copy(const Statement& statement, double unit_mm, const 
                               "write a whole number up to 10000");
     const std::size_t begin = marked->second, end = recorded_.size();
     if (static_cast<double>(end - begin) * *times + static_cast<double>(count_) >
-        static_cast<double>(most_statements_)) {
-        return refuse_endless(statement.word);
-    }
+        static_cast<double>(most_statements_))
+        return refuse_more_statements(statement.word);
     Frame frame;
     for (double i = 0; i < *times; ++i) {
         frame = *step * frame;
@@ -235,6 +253,10 @@ Statement Procedures::replaced(const Statement& statement) {
         const auto found = names_.find(upper(is_negative ? item.text.substr(1) : item.text));
         if (found == names_.end()) {
             changed.items.push_back(item);
+            // A number stays as it is written.
+            if (number_of(item.text)) continue;
+            if (const auto number = value(item.text))
+                changed.items.back().text = kept(format_decimal(*number));
             continue;
         }
         for (const std::string& value : found->second) {

@@ -420,7 +420,7 @@ class AptReader {
     bool any_known_ = false;
     bool ended_ = false;  // by FINI
     PassedWords passed_;
-    Procedures procedures_{report_, options_.max_steps};
+    Procedures procedures_{report_, options_.max_statements};
     Frame copy_;  // in which the statement runs
 };
 

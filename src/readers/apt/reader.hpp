@@ -22,7 +22,7 @@ struct AptOptions {
     LengthUnit default_unit = LengthUnit::millimetre;  // without a UNITS statement, with a warning
     double default_feed_mm_per_min = 0;                // for feed moves before the first FEDRAT; 0: refused
     std::size_t max_moves = kMostMoves;                // more are refused
-    std::size_t max_steps = 1'000'000;  // statements that macros and copies run; more are refused
+    std::size_t max_statements = 1'000'000;            // run by macros, copies and loops; more are refused
     // Receives all refusals of the program (control/refusals.hpp). Null: reading ends at the first.
     std::vector<Error>* refusals = nullptr;
 };

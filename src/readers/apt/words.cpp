@@ -133,6 +133,7 @@ constexpr std::array kWords{
     Entry{"LOOPST", kProgram},
     Entry{"LOOPND", kProgram},
     Entry{"JUMPTO", kProgram},
+    Entry{"DO", kProgram},
     Entry{"UNDO", kProgram},
     Entry{"REFSYS", kTurned},
     Entry{"MIRROR", kTurned},

@@ -102,7 +102,7 @@ std::optional<Dialect> dialect_of(std::string_view word) {
 }
 
 std::string_view name_of(Dialect dialect) {
-    constexpr std::string_view names[] = {"LinuxCNC", "Fanuc", "Siemens", "Heidenhain"};
+    constexpr std::string_view names[] = {"LinuxCNC", "Fanuc", "Siemens", "Heidenhain", "NUM"};
     return names[static_cast<std::size_t>(dialect)];
 }
 

@@ -8,15 +8,16 @@
 
 namespace tribo::readers {
 
-enum class Dialect { linuxcnc, fanuc, siemens, heidenhain };
+enum class Dialect { linuxcnc, fanuc, siemens, heidenhain, num };
 
 // Their words in job files and flags, in their order.
-inline constexpr std::array<std::string_view, 4> kDialectWords{"linuxcnc", "fanuc", "siemens", "heidenhain"};
+inline constexpr std::array<std::string_view, 5> kDialectWords{"linuxcnc", "fanuc", "siemens", "heidenhain",
+                                                               "num"};
 
 // None for another word.
 std::optional<Dialect> dialect_of(std::string_view word);
 
-// "LinuxCNC", "Fanuc", "Siemens", "Heidenhain".
+// "LinuxCNC", "Fanuc", "Siemens", "Heidenhain", "NUM".
 std::string_view name_of(Dialect dialect);
 
 // Detects the control from clear signs in the first lines. Heidenhain: BEGIN PGM. Siemens: TRAORI, CYCLE800,

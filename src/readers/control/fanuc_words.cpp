@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <vector>
 
+#include "readers/control/num_words.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
@@ -40,7 +42,9 @@ bool all_digits(std::string_view text) {
 
 class Translator {
   public:
-    explicit Translator(OtherControl control) : is_okuma_(control == OtherControl::okuma) {}
+    Translator(OtherControl control, std::string_view bytes)
+        : is_okuma_(control == OtherControl::okuma),
+          says_centres_(!is_okuma_ && has_absolute_centres(bytes)) {}
 
     std::string line(std::string_view text) {
         std::string all = upper(text);
@@ -57,11 +61,23 @@ class Translator {
             ++at_;
             out_ += "N" + label() + " ";
         }
+        const std::size_t head = out_.size();
+        has_centre_ = has_absolute_centre_ = false;
         while (at_ < in_.size()) word();
+        if (says_centres_ && has_centre_) out_.insert(head, has_absolute_centre_ ? "G90.1 " : "G91.1 ");
         return out_;
     }
 
   private:
+    // G6: the centre of an arc in absolute coordinates, in its block alone.
+    static bool has_absolute_centres(std::string_view bytes) {
+        for (std::size_t at = bytes.find('6'); at != std::string_view::npos; at = bytes.find('6', at + 1)) {
+            const std::size_t zeros = at > 0 && bytes[at - 1] == '0' ? 1 : 0;
+            const bool is_code = at > zeros && to_upper(bytes[at - zeros - 1]) == 'G';
+            if (is_code && (at + 1 == bytes.size() || !is_digit(bytes[at + 1]))) return true;
+        }
+        return false;
+    }
     void skip_blanks() {
         while (at_ < in_.size() && is_blank(in_[at_])) ++at_;
     }
@@ -169,6 +185,7 @@ class Translator {
             return;
         }
         const char letter = in_[at_++];
+        has_centre_ = has_centre_ || letter == 'I' || letter == 'J' || letter == 'K';
         if (at_ < in_.size() && in_[at_] == '=') {
             ++at_;
             out_ += std::string(1, letter) + "[" + formula(" ") + "]";
@@ -283,6 +300,8 @@ class Translator {
         } else if (name == "RET") {
             at_ = behind;
             text = "M99";
+        } else if (name == "RPT" && fagor_repeat(behind)) {
+            return true;
         } else if (name == "RPT" || name == "PCALL" || name == "MCALL" || name == "WHILE" ||
                    name == "ROTATE") {
             text = name;  // no word of Fanuc: refused by its name
@@ -300,6 +319,32 @@ class Translator {
             return false;
         }
         out_ += text;
+        return true;
+    }
+
+    // (RPT N10,N20) N3: the lines from N10 to N20, three times.
+    bool fagor_repeat(std::size_t at) {
+        std::array<std::string, 3> numbers;  // of the first line, of the last one, of the times
+        constexpr std::array<std::string_view, 3> before{"N", ",N", ")N"};
+        const auto skip = [&] {
+            while (at < in_.size() && is_blank(in_[at])) ++at;
+        };
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            for (const char c : before[i]) {
+                skip();
+                if (at < in_.size() && in_[at] == c) {
+                    ++at;
+                } else if (i < 2) {
+                    return false;
+                }
+            }
+            const std::string_view digits = digits_at(in_, at);
+            numbers[i] = digits;
+            at += digits.size();
+            if (digits.empty() && i < 2) return false;
+        }
+        out_ += "M97P" + numbers[0] + "Q" + numbers[1] + (numbers[2].empty() ? "" : "L" + numbers[2]);
+        at_ = at;
         return true;
     }
 
@@ -332,6 +377,66 @@ class Translator {
         return word;
     }
 
+    // The same as a formula; empty: the block has no such word.
+    std::string take_value(char letter) {
+        std::string word = take_word(letter);
+        if (word.empty()) return {};
+        const bool is_negative = word[0] == '-';
+        if (is_negative) word.erase(0, 1);
+        const std::string known = variable(word);
+        return "[" + std::string(is_negative ? "0-" : "") + (known.empty() ? word : known) + "]";
+    }
+
+    // The word as a way from the start, which is at `place`; increments are that already.
+    std::string take_way(char letter, const char* place) {
+        // G90 and G91 of this block hold for it, and #4003 says what held before.
+        const bool is_relative = in_.find("G91") != std::string::npos,
+                   is_absolute = in_.find("G90") != std::string::npos;
+        const std::string absolute = is_relative   ? "0"
+                                     : is_absolute ? "1"
+                                                   : "[#4003 EQ 90]",
+                          value = take_value(letter);
+        return value.empty() ? "0" : "[" + value + "-" + place + "*" + absolute + "]";
+    }
+
+    // An arc to X Y that goes on in the direction of the move before it: #99901 and on (gcode/text/
+    // fanuc_variables.hpp).
+    void tangent_arc() {
+        const std::string in = in_;
+        const std::string c = take_way('X', "#5041"), d = take_way('Y', "#5042");
+        in_ = in;
+        if (c == "0" && d == "0") {
+            out_ += "FAGORG8";
+            return;
+        }
+        const std::string cross = "[#99901*" + d + "-#99902*" + c + "]";
+        const std::string radius = "[[" + c + "*" + c + "+" + d + "*" + d + "]/[2*" + cross + "]]";
+        out_ += "G91.1 G[2+[" + cross + " GT 0]] I[0-#99902*" + radius + "] J[#99901*" + radius + "] ";
+    }
+
+    // An arc to X Y through the point I J, in the plane of X and Y: its centre follows from the three points.
+    void three_points() {
+        const bool is_whole =
+            in_.find('X', at_) != std::string::npos && in_.find('Y', at_) != std::string::npos &&
+            in_.find('I', at_) != std::string::npos && in_.find('J', at_) != std::string::npos;
+        if (!is_whole) {
+            out_ += "FAGORG9";
+            return;
+        }
+        const std::string in = in_;
+        const std::string a = take_way('I', "#5041"), b = take_way('J', "#5042"), c = take_way('X', "#5041"),
+                          d = take_way('Y', "#5042");
+        const std::string cross = "[" + a + "*" + d + "-" + b + "*" + c + "]";
+        const std::string e = "[" + a + "*" + a + "+" + b + "*" + b + "]",
+                          f = "[" + c + "*" + c + "+" + d + "*" + d + "]";
+        // X and Y stay words of the block.
+        in_ = in;
+        take_word('I');
+        take_word('J');
+        out_ += "G91.1 G[2+[" + cross + " GT 0]] I[[" + d + "*" + e + "-" + b + "*" + f + "]/[2*" + cross +
+                "]] J[[" + a + "*" + f + "-" + c + "*" + e + "]/[2*" + cross + "]] ";
+    }
+
     void okuma_code(const std::string& number) {
         if (number == "15" || number == "16") {
             out_ += "G54.1P" + take_word('H');
@@ -353,11 +458,16 @@ class Translator {
     }
 
     void fagor_code(const std::string& number) {
-        constexpr std::array<std::string_view, 10> refused{"6",  "8",  "9",  "20", "37",
-                                                           "38", "69", "72", "83", "93"};
+        constexpr std::array<std::string_view, 7> refused{"20", "37", "38", "69", "72", "83", "93"};
         constexpr std::array<std::string_view, 6> cycles{"81", "82", "84", "85", "86", "89"};
         if (std::find(refused.begin(), refused.end(), number) != refused.end()) {
             out_ += "FAGORG" + number;  // means something else on a Fanuc control: refused by this name
+        } else if (number == "6") {
+            has_absolute_centre_ = true;
+        } else if (number == "8") {
+            tangent_arc();
+        } else if (number == "9") {
+            three_points();
         } else if (number == "5" || number == "7" || number == "50") {
             out_ += number == "7" ? "G61" : "G64";
         } else if (number == "10") {
@@ -375,7 +485,8 @@ class Translator {
         }
     }
 
-    bool is_okuma_;
+    bool is_okuma_, says_centres_;
+    bool has_centre_ = false, has_absolute_centre_ = false;  // of the block
     bool cycle_on_ = false;
     std::string in_, out_;
     std::size_t at_ = 0;
@@ -385,7 +496,8 @@ class Translator {
 }  // namespace
 
 std::string_view name_of(OtherControl control) {
-    return control == OtherControl::okuma ? "Okuma OSP" : "Fagor 8055";
+    constexpr std::array<std::string_view, 3> names{"Okuma OSP", "Fagor 8055", "NUM"};
+    return names[static_cast<std::size_t>(control)];
 }
 
 std::optional<OtherControl> detect_other_control(std::string_view bytes) {
@@ -417,12 +529,33 @@ std::optional<OtherControl> detect_other_control(std::string_view bytes) {
         if (block.starts_with("CALLO") || block.starts_with("NCYL") || block.starts_with("G15H") ||
             block.starts_with("G56HA"))
             return OtherControl::okuma;
+        if (is_block_of_num(text.substr(0, text.find('(')))) return OtherControl::num;
     }
     return std::nullopt;
 }
 
+namespace {
+
+std::string num_in_fanuc_words(std::string_view bytes) {
+    NumWords num;
+    std::vector<std::string> translated;
+    TextLines lines(bytes);
+    while (const auto line = lines.next()) {
+        std::string text = num.line(*line);
+        if (num.begins_program()) num.end_program(translated);
+        translated.push_back(std::move(text));
+    }
+    num.end_program(translated);
+    std::string all;
+    for (const std::string& line : translated) all += line + '\n';
+    return all;
+}
+
+}  // namespace
+
 std::string in_fanuc_words(std::string_view bytes, OtherControl control) {
-    Translator translator(control);
+    if (control == OtherControl::num) return num_in_fanuc_words(bytes);
+    Translator translator(control, bytes);
     std::string text;
     TextLines lines(bytes);
     while (const auto line = lines.next()) {

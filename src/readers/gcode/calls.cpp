@@ -79,8 +79,11 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
         const auto left_out = leave_out(*number, line, state, flow, output);
         if (!left_out || *left_out) return left_out;
     }
+    const Word* last = is_local ? command.use('Q') : nullptr;
+    if (last != nullptr && !is_whole(*last, 1))
+        return output.refuse(line, last->column, "M97 Q is not the number of a line", "correct Q");
     const auto called =
-        is_local ? flow.call_lines(*number, *times, line) : flow.call_program(*number, *times, line);
+        is_local ? flow.call_lines(*number, last, *times, line) : flow.call_program(*number, *times, line);
     if (!called) return std::unexpected(called.error());
     return true;
 }

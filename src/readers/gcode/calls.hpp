@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The words of calls: M97 P L, M98 P L, M99 P, and G65 P L and G66 P L with their arguments.
+// The words of calls: M97 P L (Q: to that line), M98 P L, M99 P, and G65 P L and G66 P L with their
+// arguments.
 #pragma once
 
 #include <cstdint>

@@ -260,9 +260,11 @@ Unread unread_g(int tenths) {
         case 320:
         case 330:
             return {"moves synchronised with the spindle", kPlainMoves};
+        case 470:
+            return {"text that the control engraves, or a move longer by two offsets",
+                    "let the CAM system write the letters, or the moves, as plain G0 to G3 moves"};
         case 450:
         case 460:
-        case 470:
         case 480:
             return {"moves longer or shorter by an offset", kPlainMoves};
         case 661:

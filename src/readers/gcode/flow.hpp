@@ -37,8 +37,10 @@ class Flow {
                               const Arguments* arguments = nullptr);
     // True if the text has the program of that number.
     Result<bool> has_program(const Word& number);
-    // M97: the same for lines of this program, from N to M99.
-    Result<void> call_lines(const Word& number, std::int64_t times, int line);
+    // M97: the same for lines of this program, from N to M99, or to the line N of `last`.
+    Result<void> call_lines(const Word& number, const Word* last, std::int64_t times, int line);
+    // Returns from the calls whose last line has just run.
+    Result<void> leave_lines();
     // M99. Returns false if no program has called this one. `to`: the line N that it returns to, or null.
     Result<bool> return_from_program(int line, int column, const Word* to);
     // At the end of the text. Refuses an open subroutine or loop.
@@ -59,6 +61,7 @@ class Flow {
         std::int64_t times_left = 0;      // after this run
         std::size_t repeats = 0;          // number of running repeat loops at the call
         std::size_t macro_loops = 0;      // the same of DO
+        int last_line = 0;                // of M97 P Q; 0: it ends with M99
         bool is_program = false;          // M97, M98, G65
         bool has_variables = false;       // a level of its own
     };

@@ -71,7 +71,7 @@ Result<void> Flow::end_macro_loop(const Block& block) {
                   "write WHILE [...] DO" + std::to_string(number) + " before the loop");
 }
 
-Result<void> Flow::call_lines(const Word& number, std::int64_t times, int line) {
+Result<void> Flow::call_lines(const Word& number, const Word* last, std::int64_t times, int line) {
     if (auto known = require_places(); !known) return known;
     const int wanted = static_cast<int>(number.value);
     const TextLines* entry = places_->find_number(wanted, line);
@@ -85,7 +85,33 @@ Result<void> Flow::call_lines(const Word& number, std::int64_t times, int line) 
     call.name = "N" + std::to_string(wanted);
     call.times_left = times - 1;
     call.is_program = true;
+    if (last != nullptr) {
+        const int number_of_last = static_cast<int>(last->value);
+        const TextLines* end = places_->find_number(number_of_last, entry->number() + 1);
+        if (end == nullptr || end->number() < entry->number()) {
+            return refuse(line, last->column,
+                          "the lines from N" + std::to_string(wanted) + " have no N" +
+                              std::to_string(number_of_last) + " behind them",
+                          "write it before the last line to run");
+        }
+        call.last_line = end->number() + 1;
+        if (line > entry->number() && line <= call.last_line)
+            return refuse(line, number.column, "lines that are to run again hold their own call",
+                          "write the call behind them");
+    }
     return push(std::move(call), line, number.column);
+}
+
+Result<void> Flow::leave_lines() {
+    while (!calls_.empty() && calls_.back().last_line > 0 &&
+           calls_.back().last_line == lexer_.place().number()) {
+        const int line = calls_.back().last_line;
+        const std::size_t depth = calls_.size();
+        if (auto returned = return_from_program(line, 1, nullptr); !returned)
+            return std::unexpected(returned.error());
+        if (calls_.size() == depth) break;  // once more
+    }
+    return {};
 }
 
 }  // namespace tribo::readers::gcode

@@ -67,6 +67,7 @@ class ProgramReader {
   private:
     // Returns false at the end of the program.
     Result<bool> run_next(Block& block) {
+        if (auto done = flow_.leave_lines(); !done) return std::unexpected(done.error());
         state_.line = lexer_.place().number() + 1;
         const auto found = lexer_.next(block);
         if (!found) return std::unexpected(found.error());
@@ -248,6 +249,7 @@ class ProgramReader {
         if (calls) {
             command.use('P');
             command.use('L');
+            if (command.m(MGroup::subprogram)->tenths == 970) command.use('Q');
         }
         pass_unknown_codes(command, output_);
         if (auto done = pass_unused_words(command, state_, output_); !done)

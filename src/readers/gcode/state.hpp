@@ -177,6 +177,7 @@ struct State {
     Compensation compensation;
     // Position of the tool at the end of compensation; the next move starts here and not at tip_mm.
     std::optional<Vec3> left_at_mm;
+    std::optional<Vec3> heading;        // direction of the last move at its end, without compensation
     std::optional<Vec3> spline_end_mm;  // from the end of the last G5 to its second control point
     bool retract_to_r = true;           // G99
     bool return_level_stated = false;

@@ -221,6 +221,16 @@ class ToolTableReader {
 
 }  // namespace
 
+bool is_tool_table(std::string_view bytes, std::string_view name) {
+    std::string ending(name.substr(std::min(name.rfind('.'), name.size())));
+    std::ranges::transform(ending, ending.begin(), to_upper);
+    constexpr std::array endings{".TBL"sv, ".FCTB"sv, ".TOOLS"sv, ".JSON"sv, ".XML"sv};
+    if (std::ranges::find(endings, ending) != endings.end()) return true;
+    const std::string_view header = bytes.substr(0, bytes.find_first_of("\r\n"));
+    return ending == ".CSV" &&
+           (is_csv_library(bytes) || header.find("diameter_mm") != std::string_view::npos);
+}
+
 Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options) {
     const std::size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
     const char begin = first == std::string_view::npos ? ' ' : bytes[first];

@@ -31,4 +31,8 @@ struct ToolTable {
 // comment of a line may state shape, corner and flutes.
 Result<ToolTable> read_tool_table(std::string_view bytes, const ToolTableOptions& options = {});
 
+// True for a file that read_tool_table() is for, by its name (.tbl, .fctb, .tools, .json, .xml), a CSV file
+// by its columns.
+bool is_tool_table(std::string_view bytes, std::string_view name);
+
 }  // namespace tribo::readers

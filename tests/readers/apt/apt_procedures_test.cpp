@@ -35,6 +35,21 @@ TEST(AptProcedures, StandForTheirPoints) {
          "GOTO/1,0,0\nGOTO/6,0,0\nGOTO/1,9,0\nGOTO/6,9,0\n"},
         {"INDEX/1\nGOTO/1,0,0\nCIRCLE/1,5,0,0,0,1,5\nGOTO/6,5,0\nCOPY/1,TRANSL,20,0,0,1\n",
          "GOTO/1,0,0\nCIRCLE/1,5,0,0,0,1,5\nGOTO/6,5,0\nGOTO/21,0,0\nCIRCLE/21,5,0,0,0,1,5\nGOTO/26,5,0\n"},
+        // Formulas: ** before * before +, degrees, a slash that divides.
+        {"A=2\nB=-A**2+3*(A+1)/2\nGOTO/B,10*SINF(30),SQRTF(A*8)\nGOTO/(B+.5)*2,-(A-5),1.5E1\n",
+         "GOTO/.5,5,4\nGOTO/2,3,15\n"},
+        // A row of holes by the arithmetic IF, with a label alone in its line.
+        {"X=10\nLOOPST\nL1) GOTO/X,0,5\nGODLTA/0,0,-6\nX=X+10\nIF (X-30) L1,L1,L2\nL2)\nLOOPND\nGOTO/0,0,9\n",
+         "GOTO/10,0,5\nGODLTA/0,0,-6\nGOTO/20,0,5\nGODLTA/0,0,-6\nGOTO/30,0,5\nGODLTA/0,0,-6\nGOTO/0,0,9\n"},
+        // Rows and columns by logical IF and JUMPTO; steps of 0.1 that add up to 0.3.
+        {"LOOPST\nY=0\nROW) X=0\nCOL) GOTO/X,Y,5\nX=X+.1\nIF (X .LT. .3) JUMPTO/COL\n"
+         "Y=Y+1\nIF(Y.EQ.2.OR.X.GT.9)JUMPTO/OUT\nJUMPTO/ROW\nGOTO/9,9,9\nOUT) GOTO/1,1,1\nLOOPND\n",
+         "GOTO/0,0,5\nGOTO/.1,0,5\nGOTO/.2,0,5\nGOTO/0,1,5\nGOTO/.1,1,5\nGOTO/.2,1,5\nGOTO/1,1,1\n"},
+        // A loop within a loop, a statement behind an IF, a jump in a macro.
+        {"M1=MACRO/N\nI=0\nAGAIN) I=I+1\nGOTO/I,N,0\nIF (I/2 .LT. N/2) JUMPTO/AGAIN\nTERMAC\n"
+         "N=1\nLOOPST\nA) CALL/M1,N=N\nLOOPST\nIF (N .EQ. 2) GOTO/7,7,7\nLOOPND\nN=N+1\nIF (N-3) A,B,B\n"
+         "B) GOTO/0,0,0\nLOOPND\n",
+         "GOTO/1,1,0\nGOTO/1,2,0\nGOTO/2,2,0\nGOTO/7,7,7\nGOTO/0,0,0\n"},
         {"INDEX/1\nGOTO/1,0,0\nGODLTA/1,0,0\nCOPY/1,SAME,1\n",
          "GOTO/1,0,0\nGODLTA/1,0,0\nGOTO/1,0,0\nGODLTA/1,0,0\n"},
     };

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+import { deflateRawSync } from "node:zlib";
+
 import { afterEach, describe, expect, it, vi } from "vitest";
 
 import { liveUrl } from "../src/sources/connection.js";
@@ -7,6 +9,7 @@ import { verdict } from "../src/panels/chatter.js";
 import { History } from "../src/panels/history.js";
 import { heat } from "../src/sight/heat.js";
 import { sort, tooLarge } from "../src/sources/drop.js";
+import { unpacked } from "../src/sources/tools.js";
 import { diverging, HeatMap } from "../src/sight/heat_map.js";
 import { readRecording, Recorder } from "@tribo/protocol/recording";
 import { Replay } from "../src/sources/replay.js";
@@ -244,6 +247,58 @@ describe("a drop", () => {
     expect(sort([second, round], undefined)).toMatchObject({
       refused: expect.stringContaining("the stock of another"),
     });
+  });
+  it("has a tool library beside a program, or for the program that is there", () => {
+    const csv = (name: string, text: string) => ({ name, bytes: new TextEncoder().encode(text).buffer });
+    const table = csv("tools.csv", "number,diameter_mm\n1,6\n");
+    expect(sort([table, file("p.nc")], undefined)).toMatchObject({ order: { job: "p.nc" } });
+    expect(sort([file("mill.tbl"), file("O1000")], undefined)).toMatchObject({ order: { job: "O1000" } });
+    expect(sort([csv("path.csv", "x,y,z,i,j,k\n")], undefined)).toMatchObject({ order: { job: "path.csv" } });
+    const before = { files: [file("p.nc"), file("old.tbl")], job: "p.nc", part: "", cell: 0 };
+    expect(sort([table], before)).toMatchObject({ order: { files: [{ name: "p.nc" }, table], job: "p.nc" } });
+    for (const [files, order, why] of [
+      [[table], undefined, "alone says no path"],
+      [[table], { ...before, job: "p.toml" }, "write tools = 'tools.csv'"],
+      [[table, file("a.tbl"), file("p.nc")], undefined, "2 tool libraries"],
+    ] as const) {
+      expect(sort([...files], order)).toMatchObject({ refused: expect.stringContaining(why) });
+    }
+  });
+  it("has the library of Fusion unpacked", async () => {
+    const json = '{"data":[{"type":"flat end mill"}]}'.repeat(9);
+    // A directory entry, then the file, stored and deflated.
+    const zip = (method: number) => {
+      const packed = method === 0 ? Buffer.from(json) : deflateRawSync(json);
+      const entry = (name: string, data: Buffer, at: number) => {
+        const local = Buffer.alloc(30);
+        local.writeUInt32LE(0x04034b50, 0);
+        local.writeUInt16LE(name.length, 26);
+        const central = Buffer.alloc(46);
+        central.writeUInt32LE(0x02014b50, 0);
+        central.writeUInt16LE(method, 10);
+        central.writeUInt32LE(data.length, 20);
+        central.writeUInt16LE(name.length, 28);
+        central.writeUInt32LE(at, 42);
+        return {
+          local: Buffer.concat([local, Buffer.from(name), data]),
+          central: Buffer.concat([central, Buffer.from(name)]),
+        };
+      };
+      const folder = entry("tools/", Buffer.alloc(0), 0);
+      const tools = entry("tools/tools.json", packed, folder.local.length);
+      const end = Buffer.alloc(22);
+      end.writeUInt32LE(0x06054b50, 0);
+      end.writeUInt16LE(2, 10);
+      end.writeUInt32LE(folder.local.length + tools.local.length, 16);
+      return new Uint8Array(Buffer.concat([folder.local, tools.local, folder.central, tools.central, end])).buffer;
+    };
+    for (const method of [0, 8]) {
+      const { name, bytes } = await unpacked({ name: "My.tools", bytes: zip(method) });
+      expect(name).toBe("My.tools");
+      expect(new TextDecoder().decode(bytes)).toBe(json);
+    }
+    const plain = { name: "My.tools", bytes: new TextEncoder().encode(json).buffer };
+    expect(await unpacked(plain)).toBe(plain);
   });
   it("is refused in words", () => {
     expect(sort([file("a.toml"), file("b.toml")], undefined)).toMatchObject({

@@ -45,6 +45,9 @@ motion::Move new_move(motion::MoveKind kind, const Command& command, const State
 }
 
 Result<void> append(const motion::Move& move, State& state, Output& output) {
+    const Vec3 way = move.arc ? cross(move.arc->normal, move.end.tip_mm - move.arc->centre_mm)
+                              : move.end.tip_mm - move.start.tip_mm;
+    if (length(way) > 0) state.heading = normalized(way);
     if (state.corner) return join_at_corner(move, state, output);
     if (state.compensation.is_on) return compensate(move, state, output);
     return state.left_at_mm ? leave_compensation(move, state, output) : hand_out(move, state, output);

@@ -43,6 +43,12 @@ double motion_code(const State& state) {
 }  // namespace
 
 std::optional<double> fanuc_system_variable(int number, const State& state) {
+    if (number >= kFirstHeading && number < kFirstHeading + 3) {
+        if (!state.heading) return std::nullopt;
+        const Vec3 at = state.tip_mm - state.origin_mm();
+        return normalized(state.frame.written(at + *state.heading) -
+                          state.frame.written(at))[number - kFirstHeading];
+    }
     if (const auto place = work_place(number)) {
         return state.work[place->system].origin_mm[place->axis] / state.unit_mm;
     }

@@ -15,6 +15,9 @@ inline constexpr int kLastCommon = 999;  // #100 to #199 and #500 to #999; syste
 // X, Y and Z where the last block ended (#5001), and where the tool is (#5041), in the coordinates of the
 // program.
 inline constexpr int kFirstBlockEnd = 5001, kFirstPlace = 5041;
+// Direction of the last move at its end, X Y Z. No control has these: programs of others are written with
+// them (control/fanuc_words.hpp).
+inline constexpr int kFirstHeading = 99'901;
 inline constexpr int kAlarm = 3000, kStopWithMessage = 3006;
 
 // Returns the value; none where only the control knows it. Lengths are in the unit in force.

@@ -4,13 +4,14 @@
 import { ENDING } from "../keep/moment.js";
 import { fixed } from "../texts/figures.js";
 import { t } from "../texts/texts.js";
+import { isToolLibrary, unpacked } from "./tools.js";
 import type { JobFile, Order } from "./workshop.js";
 
 // A page holds its input several times in memory; the program accepts longer files.
 export const LARGEST_FILE = 64 << 20;
 
 const MODELS = /\.(wrl|vrml|stl|obj|ply)(\.gz)?$/i;
-const PROGRAMS = /\.(ngc|nc|gcode|gc|tap|cnc|mpf|eia|min|h|spf|hnc|apt|cls|cldata|cl|aptsource|csv|txt)$/i;
+const PROGRAMS = /\.(ngc|nc|gcode|gc|tap|cnc|mpf|eia|min|h|spf|hnc|apt|cls|cldata|cl|aptsource|nci|xpi|csv|txt)$/i;
 
 export type Wanted = { order: Order } | { recording: JobFile } | { moment: JobFile } | { refused: string };
 
@@ -35,6 +36,19 @@ function lastJobs(jobs: JobFile[]): JobFile[] {
   return jobs.filter((job) => !earlier.has(lastName(job.name)));
 }
 
+// A library that comes alone: the program that is milled now takes its tools from it.
+function withLibrary(library: JobFile, before: Order | undefined): Wanted {
+  if (!before) return { refused: t("a tool library alone says no path: drop it together with a program") };
+  if (/\.toml$/i.test(before.job)) {
+    return {
+      refused: t("a job says its tools itself: write tools = '{name}' under [path], and drop both", {
+        name: library.name,
+      }),
+    };
+  }
+  return { order: { ...before, files: [...before.files.filter((file) => !isToolLibrary(file)), library] } };
+}
+
 // The files of one drop or choice, with folders in their names ("bowl/bowl.toml").
 export function sort(files: JobFile[], before: Order | undefined): Wanted {
   const [first] = files;
@@ -45,7 +59,8 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
   if (moment) return { moment };
   const tables = files.filter((f) => f.name.endsWith(".toml"));
   const jobs = tables.length > 1 ? lastJobs(tables) : tables;
-  const programs = files.filter((f) => PROGRAMS.test(f.name));
+  const libraries = files.filter(isToolLibrary);
+  const programs = files.filter((f) => PROGRAMS.test(f.name) && !libraries.includes(f));
   const models = files.filter((f) => MODELS.test(f.name));
   if (jobs.length === 0 && tables.length > 0) {
     return {
@@ -66,6 +81,15 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
   const [job] = jobs;
   const [program] = programs;
   const [model] = models;
+  const [library] = libraries;
+  if (libraries.length > 1 && !job) {
+    return {
+      refused: t("there are {count} tool libraries ({names}); drop one", {
+        count: libraries.length,
+        names: namesOf(libraries),
+      }),
+    };
+  }
   if (job) return { order: { files, job: job.name, part: "", cell } };
   if (programs.length > 1) {
     return {
@@ -76,12 +100,14 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
     };
   }
   if (program) return { order: { files, job: program.name, part: model?.name ?? "", cell } };
+  const rest = files.filter((f) => !libraries.includes(f));
+  if (library && rest.length === 0) return withLibrary(library, before);
   if (model && models.length === 1 && before) {
     return { order: { ...before, files: [...before.files, model], part: model.name } };
   }
   if (model) return { refused: t("a model alone says no path: drop it together with a program") };
   // Unknown extension: the module examines the contents.
-  return { order: { files, job: first.name, part: "", cell } };
+  return { order: { files, job: (rest[0] ?? first).name, part: "", cell } };
 }
 
 export function tooLarge(files: { name: string; size: number }[]): string {
@@ -95,7 +121,7 @@ export function tooLarge(files: { name: string; size: number }[]): string {
 }
 
 export async function read(files: { name: string; file: File }[]): Promise<JobFile[]> {
-  return Promise.all(files.map(async ({ name, file }) => ({ name, bytes: await file.arrayBuffer() })));
+  return Promise.all(files.map(async ({ name, file }) => unpacked({ name, bytes: await file.arrayBuffer() })));
 }
 
 // Returns the files of a drop, including those in folders.

@@ -223,6 +223,12 @@ export const TABLE: Table = {
     "es sind {count} Aufträge ({names}); legen Sie einen ab, mit den Dateien, die er nennt",
   "there are {count} programs ({names}); drop one, or a job that names it":
     "es sind {count} Programme ({names}); legen Sie eines ab, oder einen Auftrag, der es nennt",
+  "there are {count} tool libraries ({names}); drop one":
+    "es sind {count} Werkzeugbibliotheken ({names}); legen Sie eine ab",
+  "a tool library alone says no path: drop it together with a program":
+    "eine Werkzeugbibliothek allein hat keinen Werkzeugweg: legen Sie sie zusammen mit einem Programm ab",
+  "a job says its tools itself: write tools = '{name}' under [path], and drop both":
+    "ein Auftrag nennt seine Werkzeuge selbst: schreiben Sie tools = '{name}' unter [path], und legen Sie beides ab",
   "a model alone says no path: drop it together with a program":
     "ein Modell allein hat keinen Werkzeugweg: legen Sie es zusammen mit einem Programm ab",
   "{name}: {size} are more than a page can hold ({most}); try: tribo render, or tribo live, which take it":
