@@ -6,6 +6,7 @@ import { canvas, context, hasEngine, line } from "./early.js";
 import { offerExamples, order as orderOf } from "./sources/examples.js";
 import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
+import { listenToCompare } from "./compare/compare.js";
 import { ChatterPanel } from "./panels/chatter.js";
 import { Film } from "./film/film.js";
 import { History } from "./panels/history.js";
@@ -334,7 +335,7 @@ function change(to: () => Source): void {
   source = to();
   // A link is of the job that it opened.
   setFragment("");
-  element("keep-link").hidden = !(source instanceof Workshop);
+  element("keep-link").hidden = element("compare").hidden = !(source instanceof Workshop);
   element("link-box").hidden = true;
   transport.beginSource();
 }
@@ -377,6 +378,7 @@ function momentNow(): Moment | undefined {
   const changes = changesOf(asWritten, settings);
   return { order, t_s: history.time, changes, view: scene.view, colouring: colours.now };
 }
+listenToCompare({ now: momentNow, pause: () => transport.pause(), say });
 const reopen = new Reopen({
   now: momentNow,
   comesAgain: () => source === engine,
