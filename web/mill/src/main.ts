@@ -3,7 +3,8 @@
 
 import * as drop from "./sources/drop.js";
 import { canvas, context, hasEngine, line } from "./early.js";
-import { offerExamples, order as orderOf } from "./sources/examples.js";
+import { EXAMPLES } from "./gallery/list.js";
+import { order as orderOf } from "./sources/examples.js";
 import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
 import { listenToCompare } from "./compare/compare.js";
@@ -54,7 +55,7 @@ const listener: Listener = {
     document.title = name ? `${name} - Tribo` : t("Tribo: mill");
     if (message.job === undefined) {
       advise(t("Drop a job with its files, G-code, APT or keyframes here, or press Open"));
-      element("learn-begin").hidden = false;
+      element("learn-begin").hidden = element("examples").hidden = false;
     }
     element("job").textContent = name;
     assumed.tell(message.warnings);
@@ -546,6 +547,19 @@ async function openQuiz(): Promise<void> {
 }
 for (const id of ["learn", "learn-begin"]) element(id).addEventListener("click", () => void openQuiz());
 
+// ---- Examples
+let gallery: import("./gallery/gallery.js").Gallery | undefined;
+async function openGallery(): Promise<void> {
+  try {
+    const { Gallery } = await import("./gallery/gallery.js");
+    gallery ??= new Gallery(mill, say);
+    gallery.open();
+  } catch (error) {
+    say(t("The examples do not open: {why}", { why: wordsOf(error) }));
+  }
+}
+for (const id of ["examples", "show-examples"]) element(id).addEventListener("click", () => void openGallery());
+
 listenToFiles(open);
 
 listenToHeadset(scene, finger, { hear, play: () => transport.toggle() });
@@ -569,11 +583,11 @@ engine?.listen(listener);
 
 // ---- Without an engine the page mills
 if (!hasEngine) {
-  element("learn-begin").hidden = false;
-  void offerExamples(mill).then(async (example) => {
-    if (!example || (await reopen.followLink())) return;
+  element("learn-begin").hidden = element("examples").hidden = false;
+  void reopen.followLink().then(async (opened) => {
+    if (opened) return;
     const why = notice.textContent;
-    if (await mill(await orderOf(example))) film.begin();
+    if (await mill(await orderOf(EXAMPLES[0]!))) film.begin();
     if (why) say(why);
   });
   addEventListener("hashchange", () => void reopen.followLink());
