@@ -45,6 +45,7 @@ import type { AuditOfMill } from "@tribo/wasm/audit";
 import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
 import { SetUpCard } from "./setup/card.js";
 import { StockHandles } from "./setup/stock_handles.js";
+import { chainOf, textOf } from "./setup/chain.js";
 import { MachineQuestion } from "./setup/machine_question.js";
 import { jobNameOf, withJob } from "./setup/with_job.js";
 
@@ -363,14 +364,25 @@ async function mill(wanted: Order): Promise<boolean> {
 // ---- Set-up, of what the page mills itself
 const handles = new StockHandles(scene, (box, done) => card.stretch(box, done));
 const card: SetUpCard = new SetUpCard(
-  (text) => (order ? mill(withJob(order, text)) : Promise.resolve(false)),
+  (text) => (order ? mill(withJob(order, text, setUpShown())) : Promise.resolve(false)),
   (box) => handles.show(element("panel").hidden ? undefined : box),
+  (name) => {
+    turnedTo = name;
+    void showSetUp();
+  },
 );
+// One of a chain of set-ups that the user turned to; undefined: the last one.
+let turnedTo: string | undefined;
+const setUpShown = () => order && chainOf(order).find(({ name }) => name === turnedTo)?.name;
 const question = new MachineQuestion((answered) => void mill(answered));
 async function showSetUp(): Promise<void> {
   if (!(source instanceof Workshop) || !order) return card.show(undefined);
   const setUp = await source.setUp();
-  card.show(setUp && { name: jobNameOf(order), ...setUp });
+  const chain = chainOf(order);
+  const shownJob = chain.find(({ name }) => name === turnedTo);
+  const own = shownJob && { text: textOf(shownJob) };
+  const names = chain.map(({ name }) => name);
+  card.show(setUp && { name: shownJob?.name ?? jobNameOf(order), ...setUp, ...own, chain: names });
 }
 
 // ---- Moments

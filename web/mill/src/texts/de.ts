@@ -508,4 +508,11 @@ export const TABLE: Table = {
   "The same slot, quiet at 9000 rpm": "Dieselbe Nut, ruhig bei 9000 U/min",
   "A thin wall that bends": "Eine dünne Wand, die sich biegt",
   "A tool measured with a hammer, three depths": "Ein mit dem Hammer gemessenes Werkzeug, drei Tiefen",
+  "set-up": "Aufspannung",
+  clamped: "gespannt",
+  "zero {axis}": "Nullpunkt {axis}",
+  "as before": "wie zuvor",
+  "turned over about x": "um x umgedreht",
+  "turned over about y": "um y umgedreht",
+  "as the text says": "wie der Text sagt",
 };
