@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <span>
 #include <string_view>
 
@@ -19,7 +20,8 @@ namespace {
 
 constexpr std::size_t kMostRows = 12'000;  // the plots have fewer pixels
 constexpr std::size_t kMostNotices = 30;
-constexpr double kGapShare = 0.5;  // of the duration of a row; a longer pause is a gap between cuts
+constexpr double kFinestMm = 1e-3;  // no length of the page is known better
+constexpr double kGapShare = 0.5;   // of the duration of a row; a longer pause is a gap between cuts
 
 // Rounds to significant digits, without an exponent for numbers of usual size.
 std::string number(double value, int digits = 4) {
@@ -30,6 +32,12 @@ std::string number(double value, int digits = 4) {
         std::snprintf(text.data(), text.size(), "%.0f", value);
     }
     return text.data();
+}
+
+// Three digits, and none below a micrometre.
+std::string length_text(double mm) {
+    if (mm != 0 && std::abs(mm) < 0.5 * kFinestMm) return "&lt; " + number(kFinestMm);
+    return number(std::round(mm / kFinestMm) * kFinestMm, 3);
 }
 
 std::string time_text(double seconds) {
@@ -51,8 +59,9 @@ std::string card(const std::string& label, const std::string& value, const std::
 
 std::string cards(const Summary& s) {
     const auto unit = [](double value, const char* name) {
-        return number(value) + " <small>" + name + "</small>";
+        return number(value, 3) + " <small>" + name + "</small>";
     };
+    const auto length = [](double mm) { return length_text(mm) + " <small>mm</small>"; };
     const auto band = [&](const ForceValue& value) {
         if (!(value.low < value.high)) return std::string();
         return number(value.low, 3) + " to " + number(value.high, 3);
@@ -66,18 +75,19 @@ std::string cards(const Summary& s) {
     if (s.tooth_passing_hz) html += card("Tooth passing", unit(*s.tooth_passing_hz, "Hz"));
     html += card("Duration", time_text(s.duration_s), "cutting " + time_text(s.cutting_s));
     html += card("Path", unit(s.path_mm * 1e-3, "m"), "feed moves");
-    html += card("Removed", unit(s.removed_mm3 * cm3, "cm³"), number(s.remaining_mm3 * cm3) + " cm³ remain");
-    if (s.gouge_max_mm) html += card("Deepest gouge", unit(*s.gouge_max_mm, "mm"));
-    if (s.rest_max_mm) html += card("Most material left", unit(*s.rest_max_mm, "mm"));
+    html +=
+        card("Removed", unit(s.removed_mm3 * cm3, "cm³"), number(s.remaining_mm3 * cm3, 3) + " cm³ remain");
+    if (s.gouge_max_mm) html += card("Deepest gouge", length(*s.gouge_max_mm));
+    if (s.rest_max_mm) html += card("Most material left", length(*s.rest_max_mm));
     if (s.chatter) {
         const std::size_t lines = s.chatter->size();
         html += card("Chatter",
                      lines == 0 ? "none"
                                 : std::to_string(lines) +
                                       (lines == 1 ? " <small>line</small>" : " <small>lines</small>"),
-                     "moves by " + number(s.largest_displacement_mm.value_or(0), 3) + " mm at most");
+                     "moves by " + length_text(s.largest_displacement_mm.value_or(0)) + " mm at most");
     }
-    if (s.scallop_max_mm) html += card("Highest scallop", unit(*s.scallop_max_mm, "mm"));
+    if (s.scallop_max_mm) html += card("Highest scallop", length(*s.scallop_max_mm));
     html += card("Resolution", unit(s.resolution_mm, "mm"),
                  s.triangles ? std::to_string(*s.triangles) + " triangles" : "");
     return html;
@@ -120,6 +130,28 @@ std::string facts(const std::vector<std::pair<std::string, std::string>>& rows) 
         html += "<tr><th scope=\"row\">" + escaped(name) + "</th><td>" + escaped(text) + "</td></tr>\n";
     }
     return html + "</table>";
+}
+
+std::string worst_table(const std::vector<ReportRow>& worst) {
+    HtmlTable table;
+    table.title = "Lines with the largest forces";
+    table.hint = "Each at its worst place. Force: the largest in a turn, with its band, N.";
+    table.header = {"Line", "Time, s",   "Tip, mm",      "Force",
+                    "Band", "Depth, mm", "Feed, mm/min", "Spindle, rpm"};
+    const auto round_mm = [](double mm) { return number(std::round(mm / kFinestMm) * kFinestMm, 6); };
+    for (const ReportRow& r : worst)
+        table.rows.push_back(
+            {std::to_string(r.line), number(r.t_s),
+             round_mm(r.tip_mm.x) + ", " + round_mm(r.tip_mm.y) + ", " + round_mm(r.tip_mm.z),
+             number(r.peak_n, 3), number(r.peak_low_n, 3) + " to " + number(r.peak_high_n, 3),
+             number(r.depth_mm, 3), number(r.feed_mm_per_min), number(r.rpm)});
+    return table.rows.empty() ? "" : html_of(table);
+}
+
+std::string sheet(const ReportData& data) {
+    std::string html = worst_table(data.worst);
+    for (const HtmlTable& table : data.sheet) html += html_of(table);
+    return html;
 }
 
 std::string audio(const ReportSound& sound) {
@@ -305,6 +337,20 @@ std::vector<ReportRow> thin_rows(const std::vector<ReportRow>& rows, std::size_t
     return thin;
 }
 
+std::vector<ReportRow> worst_lines(const std::vector<ReportRow>& rows) {
+    std::map<int, ReportRow> of_line;
+    for (const ReportRow& row : rows) {
+        if (row.line <= 0) continue;
+        const auto [at, is_new] = of_line.try_emplace(row.line, row);
+        if (!is_new && row.peak_n > at->second.peak_n) at->second = row;
+    }
+    std::vector<ReportRow> worst;
+    for (const auto& [line, row] : of_line) worst.push_back(row);
+    std::ranges::stable_sort(worst, std::greater(), &ReportRow::peak_n);
+    worst.resize(std::min(worst.size(), kWorstLines));
+    return worst;
+}
+
 std::string report_html(const ReportData& data) {
     return filled(kReportPage, [&](std::string_view mark) -> std::string {
         if (mark == "title") return escaped(data.title);
@@ -314,10 +360,13 @@ std::string report_html(const ReportData& data) {
         if (mark == "cards") return cards(data.summary);
         if (mark == "notices") return notices(data.summary);
         if (mark == "chatter") return data.chatter ? chatter(*data.chatter) : "";
+        if (mark == "sheet") return sheet(data);
         if (mark == "facts") return facts(data.facts);
         if (mark == "audio") return data.sound ? audio(*data.sound) : "";
         if (mark == "data") return data_json(data);
-        if (mark == "footer") return "Tribo " + escaped(data.summary.version) + ". Units: mm, N, s.";
+        if (mark == "footer")
+            return "Tribo " + escaped(data.summary.version) +
+                   ". Units: mm, N, s. <span id=\"written\"></span>";
         if (mark == "picture" && !data.picture_png.empty()) return picture(data);
         if (mark == "part" && data.part) {
             return "<script type=\"text/plain\" id=\"part\">" + base64(report_part_bytes(*data.part)) +

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/vec3.hpp"
+#include "report/html_parts.hpp"
 #include "report/report_part.hpp"
 #include "report/summary_json.hpp"
 
@@ -28,6 +29,7 @@ struct ReportRow {
     double rpm = 0, feed_mm_per_min = 0;
     // Of a job with modes; a multiplier of 0 is unknown.
     double multiplier = 0, displacement_mm = 0;
+    std::size_t cutter = 0;
 };
 
 // Chatter of a job with modes: its worst place.
@@ -76,11 +78,17 @@ struct ReportData {
     std::optional<ReportSound> sound;
     std::optional<ReportChatter> chatter;                    // if the job has modes
     std::vector<std::pair<std::string, std::string>> facts;  // basis of the results: name, text
+    std::vector<ReportRow> worst;                            // worst_lines() of all rows
+    std::vector<HtmlTable> sheet;                            // set-up, tools, files
 };
 
 // Returns at most `most` rows. Neighbours without a gap are joined; a joined row has the position of the
 // largest force and the mean over time.
 std::vector<ReportRow> thin_rows(const std::vector<ReportRow>& rows, std::size_t most);
+
+// The lines with the largest forces, the largest first: at most kWorstLines, each at its worst row.
+inline constexpr std::size_t kWorstLines = 10;
+std::vector<ReportRow> worst_lines(const std::vector<ReportRow>& rows);
 
 // Returns the whole page.
 std::string report_html(const ReportData& data);

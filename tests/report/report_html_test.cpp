@@ -62,6 +62,47 @@ TEST(Report, carries_the_data_of_its_plots) {
     EXPECT_EQ(json["waves"][0]["label"], "loud");
 }
 
+TEST(Report, names_the_lines_with_the_largest_forces_each_once) {
+    std::vector<ReportRow> rows;
+    for (int n = 0; n < 60; ++n) {
+        ReportRow row;
+        row.line = n % 15;  // 0: of no line
+        row.t_s = n;
+        row.peak_n = 7 * n % 60;
+        rows.push_back(row);
+    }
+    const std::vector<ReportRow> worst = worst_lines(rows);
+    ASSERT_EQ(worst.size(), kWorstLines);
+    std::vector<int> lines;
+    for (const ReportRow& row : worst) {
+        lines.push_back(row.line);
+        for (const ReportRow& other : rows) EXPECT_TRUE(other.line != row.line || other.peak_n <= row.peak_n);
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(worst, std::greater(), &ReportRow::peak_n));
+    std::ranges::sort(lines);
+    EXPECT_EQ(std::ranges::adjacent_find(lines), lines.end());
+    EXPECT_GT(lines.front(), 0);
+    EXPECT_TRUE(worst_lines({}).empty());
+}
+
+TEST(Report, has_a_set_up_sheet_and_no_length_below_a_micrometre) {
+    ReportData data = example();
+    data.worst = worst_lines(data.rows);
+    data.sheet = {{"Set-up <sheet>", "", {"File", "SHA-256"}, {{"a.toml", "ba78"}}}};
+    data.summary.gouge_max_mm = 0.000012;
+    data.summary.scallop_max_mm = 0.0021244;
+    data.summary.rest_max_mm = 0.2786;
+    data.summary.peak_power_w = {1234.6, 1234.6, 1234.6};
+    const std::string html = report_html(data);
+    EXPECT_NE(html.find("<h2>Set-up &lt;sheet&gt;</h2>"), std::string::npos);
+    EXPECT_NE(html.find("<td>ba78</td>"), std::string::npos);
+    EXPECT_NE(html.find("<td>14</td><td>0.9</td><td>9, 2, -3</td><td>109</td><td>54.5 to 218</td>"),
+              std::string::npos);
+    for (const char* shown :
+         {"<b>&lt; 0.001 <small>mm", "<b>0.002 <small>mm", "<b>0.279 <small>mm", "<b>1235 <small>W"})
+        EXPECT_NE(html.find(shown), std::string::npos) << shown;
+}
+
 TEST(Report, shows_chatter_where_the_job_says_what_bends) {
     ReportData data = example();
     const std::string rigid = report_html(data);

@@ -3,10 +3,11 @@ import { join } from "node:path";
 import { brotliCompressSync, gzipSync } from "node:zlib";
 import { defineConfig, type Plugin } from "vite";
 import { COMPACT } from "../tools/bundle.js";
-import { MILL_PAGE, MODULES } from "../tools/places.js";
+import { MILL_PAGE, MODULES, ROOT } from "../tools/places.js";
 import { notices } from "./notices.js";
+import { besideAs, EXAMPLES, pictureOf } from "./src/gallery/list.js";
 
-// The modules and the licences beside the page, and of everything that is text or code packed forms for the engine's server.
+// The modules, the examples and the licences beside the page, and of everything that is text or code packed forms for the engine's server.
 function modules(): Plugin {
   return {
     name: "tribo-modules",
@@ -17,6 +18,14 @@ function modules(): Plugin {
         copyFileSync(join(MODULES, name), join(MILL_PAGE, name));
       }
       writeFileSync(join(MILL_PAGE, "notices.txt"), notices());
+      for (const example of EXAMPLES) {
+        for (const name of example.files)
+          copyFileSync(join(ROOT, "examples", example.folder, name), join(MILL_PAGE, besideAs(name)));
+        // A new example has none until `npm run pictures` makes it.
+        const picture = pictureOf(example);
+        const from = join(import.meta.dirname, "pictures", picture);
+        if (existsSync(from)) copyFileSync(from, join(MILL_PAGE, besideAs(picture)));
+      }
       for (const name of readdirSync(MILL_PAGE)) {
         if (!/\.(html|js|css|wasm|txt)$/.test(name)) continue;
         const bytes = readFileSync(join(MILL_PAGE, name));

@@ -4,9 +4,11 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 
 const MILL = join(import.meta.dirname, "../mill");
+// The mill page fills it too.
+const COMPARISON = join(import.meta.dirname, "../../src/report/page/comparison.html");
 
 function textsOfHtml(html: string): string[] {
-  const body = html.replace(/<(script|style)[^]*?<\/\1>/g, "").replace(/<!--[^]*?-->/g, "");
+  const body = html.replace(/<(head|script|style)[ >][^]*?<\/\1>/g, "").replace(/<!--[^]*?-->/g, "");
   const attributes = [...body.matchAll(/\s(?:title|aria-label|placeholder)="([^"]*)"/g)].map(([, text]) => text!);
   const texts = body.replace(/<[^>]*>/g, "\n\0\n").split("\0");
   return [...attributes, ...texts].map((text) => text.trim().replace(/\s+/g, " ")).filter((text) => text !== "");
@@ -30,5 +32,6 @@ export function textsOfMillPage(): Set<string> {
   );
   const scripts = names.flatMap((name) => textsOfScript(readFileSync(join(MILL, "src", name), "utf8")));
   const page = textsOfHtml(readFileSync(join(MILL, "index.html"), "utf8"));
-  return new Set([...scripts, ...page].filter(hasWord));
+  const comparison = textsOfHtml(readFileSync(COMPARISON, "utf8")).filter((text) => !text.includes("{{"));
+  return new Set([...scripts, ...page, ...comparison].filter(hasWord));
 }

@@ -8,6 +8,7 @@
 
 #include "app/render/part_deviation.hpp"
 #include "app/render/report_chatter.hpp"
+#include "app/render/report_sheet.hpp"
 #include "base/text/decimal.hpp"
 #include "field/contour/contour.hpp"
 #include "files/model/gltf.hpp"
@@ -284,6 +285,8 @@ FileResult<void> RenderOutputs::write_report(const session::MillSession& session
         data.sound = sound_->for_report();
         data.sound->waves = report_.waves(session.setup(), sound_->options());
     }
+    data.worst = report::worst_lines(report_.rows);
+    data.sheet = report_sheet(call_.job, loaded_, session, report_.rows);
     data.facts = facts_of(loaded_, call_.wants("sound") && !call_.as_published);
     if (summary.uncertain_cases) data.facts.push_back(fact_of_cases(summary));
     return files::write_file(folder_.file("report.html"), report::report_html(data));

@@ -186,6 +186,7 @@ void ReportRows::add(const milling::CutRow& row, const milling::ForcePeaks& forc
         if (chatter->stability) rows.back().multiplier = chatter->stability->multiplier;
         rows.back().displacement_mm = chatter->peak_displacement_mm.value_or(0);
     }
+    rows.back().cutter = row.cutter;
     if (force.peak_force_n > worst_force_n_) {
         worst_force_n_ = force.peak_force_n;
         worst_ = row;

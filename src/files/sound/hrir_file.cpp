@@ -7,7 +7,8 @@
 #include <cstring>
 #include <memory>
 #include <mysofa.h>
-#include <openssl/sha.h>
+
+#include "files/sha256.hpp"
 
 namespace tribo::files {
 namespace {
@@ -16,17 +17,6 @@ constexpr const char* kShipped = "/usr/share/libmysofa/MIT_KEMAR_normal_pinna.so
 // SHA-256 of libmysofa 1.3's MIT_KEMAR_normal_pinna.sofa.
 constexpr std::string_view kShippedHash = "2768ac841213a7ae11d1ea7fd0f25a69b39216102dc5dd913ea6ba0f0dc57e28";
 constexpr std::uint64_t kLargestShipped = 4 << 20;
-
-std::string sha256(std::string_view bytes) {
-    std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
-    SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
-    std::string hex;
-    for (const unsigned char byte : digest) {
-        hex += "0123456789abcdef"[byte >> 4];
-        hex += "0123456789abcdef"[byte & 15];
-    }
-    return hex;
-}
 
 struct Freed {
     void operator()(MYSOFA_HRTF* hrtf) const { mysofa_free(hrtf); }

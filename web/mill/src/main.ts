@@ -3,9 +3,11 @@
 
 import * as drop from "./sources/drop.js";
 import { canvas, context, hasEngine, line } from "./early.js";
-import { offerExamples, order as orderOf } from "./sources/examples.js";
+import { EXAMPLES } from "./gallery/list.js";
+import { order as orderOf } from "./sources/examples.js";
 import { Finger } from "./touch/finger.js";
 import type { CollisionFrame, Frame, StateFrame } from "@tribo/protocol/frames";
+import { listenToCompare } from "./compare/compare.js";
 import { ChatterPanel } from "./panels/chatter.js";
 import { Film } from "./film/film.js";
 import { History } from "./panels/history.js";
@@ -43,6 +45,7 @@ import type { AuditOfMill } from "@tribo/wasm/audit";
 import { Workshop, type JobFile, type Order } from "./sources/workshop.js";
 import { SetUpCard } from "./setup/card.js";
 import { StockHandles } from "./setup/stock_handles.js";
+import { chainOf, textOf } from "./setup/chain.js";
 import { MachineQuestion } from "./setup/machine_question.js";
 import { jobNameOf, withJob } from "./setup/with_job.js";
 
@@ -53,7 +56,7 @@ const listener: Listener = {
     document.title = name ? `${name} - Tribo` : t("Tribo: mill");
     if (message.job === undefined) {
       advise(t("Drop a job with its files, G-code, APT or keyframes here, or press Open"));
-      element("learn-begin").hidden = false;
+      element("learn-begin").hidden = element("examples").hidden = false;
     }
     element("job").textContent = name;
     assumed.tell(message.warnings);
@@ -334,7 +337,7 @@ function change(to: () => Source): void {
   source = to();
   // A link is of the job that it opened.
   setFragment("");
-  element("keep-link").hidden = !(source instanceof Workshop);
+  element("keep-link").hidden = element("compare").hidden = !(source instanceof Workshop);
   element("link-box").hidden = true;
   transport.beginSource();
 }
@@ -361,14 +364,25 @@ async function mill(wanted: Order): Promise<boolean> {
 // ---- Set-up, of what the page mills itself
 const handles = new StockHandles(scene, (box, done) => card.stretch(box, done));
 const card: SetUpCard = new SetUpCard(
-  (text) => (order ? mill(withJob(order, text)) : Promise.resolve(false)),
+  (text) => (order ? mill(withJob(order, text, setUpShown())) : Promise.resolve(false)),
   (box) => handles.show(element("panel").hidden ? undefined : box),
+  (name) => {
+    turnedTo = name;
+    void showSetUp();
+  },
 );
+// One of a chain of set-ups that the user turned to; undefined: the last one.
+let turnedTo: string | undefined;
+const setUpShown = () => order && chainOf(order).find(({ name }) => name === turnedTo)?.name;
 const question = new MachineQuestion((answered) => void mill(answered));
 async function showSetUp(): Promise<void> {
   if (!(source instanceof Workshop) || !order) return card.show(undefined);
   const setUp = await source.setUp();
-  card.show(setUp && { name: jobNameOf(order), ...setUp });
+  const chain = chainOf(order);
+  const shownJob = chain.find(({ name }) => name === turnedTo);
+  const own = shownJob && { text: textOf(shownJob) };
+  const names = chain.map(({ name }) => name);
+  card.show(setUp && { name: shownJob?.name ?? jobNameOf(order), ...setUp, ...own, chain: names });
 }
 
 // ---- Moments
@@ -377,6 +391,7 @@ function momentNow(): Moment | undefined {
   const changes = changesOf(asWritten, settings);
   return { order, t_s: history.time, changes, view: scene.view, colouring: colours.now };
 }
+listenToCompare({ now: momentNow, pause: () => transport.pause(), say });
 const reopen = new Reopen({
   now: momentNow,
   comesAgain: () => source === engine,
@@ -544,6 +559,19 @@ async function openQuiz(): Promise<void> {
 }
 for (const id of ["learn", "learn-begin"]) element(id).addEventListener("click", () => void openQuiz());
 
+// ---- Examples
+let gallery: import("./gallery/gallery.js").Gallery | undefined;
+async function openGallery(): Promise<void> {
+  try {
+    const { Gallery } = await import("./gallery/gallery.js");
+    gallery ??= new Gallery(mill, say);
+    gallery.open();
+  } catch (error) {
+    say(t("The examples do not open: {why}", { why: wordsOf(error) }));
+  }
+}
+for (const id of ["examples", "show-examples"]) element(id).addEventListener("click", () => void openGallery());
+
 listenToFiles(open);
 
 listenToHeadset(scene, finger, { hear, play: () => transport.toggle() });
@@ -567,11 +595,11 @@ engine?.listen(listener);
 
 // ---- Without an engine the page mills
 if (!hasEngine) {
-  element("learn-begin").hidden = false;
-  void offerExamples(mill).then(async (example) => {
-    if (!example || (await reopen.followLink())) return;
+  element("learn-begin").hidden = element("examples").hidden = false;
+  void reopen.followLink().then(async (opened) => {
+    if (opened) return;
     const why = notice.textContent;
-    if (await mill(await orderOf(example))) film.begin();
+    if (await mill(await orderOf(EXAMPLES[0]!))) film.begin();
     if (why) say(why);
   });
   addEventListener("hashchange", () => void reopen.followLink());

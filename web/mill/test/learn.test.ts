@@ -11,7 +11,7 @@ import { PATIENCE_MS } from "../../testing/browser.js";
 import { hasMillPage, MillPage } from "../../testing/mill_page.js";
 import { ROOT } from "../../tools/places.js";
 import { load } from "../../wasm/test/load.js";
-import { clipOf, RATE } from "../src/learn/clip.js";
+import { clipOf, openFiles, RATE } from "../src/learn/clip.js";
 import { filesOf, FLUTES, JOB_NAME, RIGHT_CUT, spanOf, SPINDLE_RPM, WRONG_CUTS } from "../src/learn/cuts.js";
 import { cellsOf, COLUMNS } from "../src/learn/cells.js";
 import { hear, type Heard } from "../src/learn/measure.js";
@@ -55,7 +55,9 @@ describe("the cuts of the quiz", () => {
     for (const cut of ALL) {
       const ear = await load<MillSoundExports>("mill_sound");
       ear.sound_open(RATE);
-      const clip = clipOf(await load<MillExports>("tribo"), ear, filesOf(cut), JOB_NAME, spanOf(cut));
+      const mill = await load<MillExports>("tribo");
+      openFiles(mill, filesOf(cut), JOB_NAME);
+      const clip = clipOf(mill, ear, spanOf(cut));
       heard.set(cut.id, hear(clip[0], RATE, SPINDLE_RPM / 60, FLUTES));
       levels.push(clip[0].reduce((most, v) => Math.max(most, Math.abs(v)), 0));
     }

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Values in the text of a job are read and changed where they stand, and nothing else is.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { entriesOf, quoted, unquoted, withKey, withoutLine, withValue } from "../src/setup/job_text.js";
 import { boxOf, FACES, middleOf, moved, nearestOnAxis, stepFor, textOf, type Box } from "../src/setup/stock_box.js";
 import { Undo } from "../src/setup/undo.js";
+import { chainOf, clampingOf, textOf as textOfFile, withClamping, withZero, zeroOf } from "../src/setup/chain.js";
 import { withJob } from "../src/setup/with_job.js";
 import type { Vec3 } from "@tribo/protocol/vec3";
+import { violations } from "../../testing/axe.js";
 import { file, PATIENCE_MS } from "../../testing/browser.js";
 import { hasMillPage, JOB as SLOT, MillPage, PROGRAM } from "../../testing/mill_page.js";
+import { ROOT } from "../../tools/places.js";
 
 const JOB = `# A job
 [stock]   # of it
@@ -39,6 +44,48 @@ describe("an order with another job", () => {
     expect(new TextDecoder().decode(program.files[1]!.bytes)).toBe("x = 1");
     const job = withJob(withJob(from("a/job.TOML"), "y = 2"), "z = 3");
     expect(job.files.map(({ name, bytes }) => [name, bytes.byteLength])).toEqual([["a/job.TOML", 5]]);
+  });
+});
+
+describe("a chain of set-ups", () => {
+  const jobFile = (name: string, text: string) => ({ name, bytes: new TextEncoder().encode(text).buffer });
+  const top = jobFile("a/top.toml", "[stock]\nbox_mm = [[0, 0, 0], [1, 1, 1]]\n");
+  const side = jobFile("a/side.toml", "[stock]\nfrom = 'top.toml' # first\n");
+  const bottom = jobFile("a/bottom.toml", '[stock]\nfrom = "side.toml"\n');
+  const of = (...files: { name: string; bytes: ArrayBuffer }[]) => ({ files, job: "a/bottom.toml", part: "", cell: 0 });
+
+  it("begins with the job that has a stock of its own", () => {
+    expect(chainOf(of(bottom, top, side)).map(({ name }) => name)).toEqual([
+      "a/top.toml",
+      "a/side.toml",
+      "a/bottom.toml",
+    ]);
+    expect(chainOf({ files: [top], job: "p.nc" })).toEqual([]);
+    // One that begins with itself ends somewhere.
+    const round = jobFile("a/bottom.toml", '[stock]\nfrom = "bottom.toml"\n');
+    expect(chainOf(of(round)).length).toBe(1);
+  });
+  it("has an earlier job changed, and stays the order of the last one", () => {
+    const order = withJob(of(bottom, top, side), "x = 1", "a/top.toml");
+    expect(order.job).toBe("a/bottom.toml");
+    expect(textOfFile(order.files.find(({ name }) => name === "a/top.toml")!)).toBe("x = 1");
+    expect(order.files.length).toBe(3);
+  });
+  it("is clamped as it is chosen, and back", () => {
+    const text = '[stock]\nfrom = "top.toml"\n[path]\ngcode = "b.nc"\n';
+    expect(clampingOf(text)).toBe("same");
+    for (const clamping of ["over x", "over y", "same"] as const)
+      expect(clampingOf(withClamping(text, clamping))).toBe(clamping);
+    expect(clampingOf(withClamping(withClamping(text, "over y"), "over x"))).toBe("over x");
+    const own = `${text}[setup]\nx_axis = [1, 1, 0]\n`;
+    expect([clampingOf(own), withClamping(own, "other")]).toEqual(["other", own]);
+    // Any length.
+    expect(clampingOf(`${text}[setup]\nz_axis = [0, 0, -2.5] # down\n`)).toBe("over x");
+    expect([zeroOf(text), zeroOf(withZero(text, [0, 40, -20]))]).toEqual([
+      [0, 0, 0],
+      [0, 40, -20],
+    ]);
+    expect(zeroOf(`${text}[setup]\norigin_mm = 3\n`)).toBeUndefined();
   });
 });
 
@@ -240,6 +287,52 @@ describe.runIf(hasMillPage)("the stock in the picture", () => {
       expect(await look()).toEqual([]);
     },
     PATIENCE_MS,
+  );
+
+  it("makes no error", () => expect(mill.problems).toEqual([]));
+});
+
+describe.runIf(hasMillPage)("two set-ups on the card", () => {
+  let mill: MillPage;
+  beforeAll(async () => {
+    mill = await MillPage.open();
+    const parts = ["bottom.toml", "bottom.nc", "top.toml", "top.nc"];
+    const files = parts.map((name) => file(name, readFileSync(join(ROOT, "examples/housing", name), "utf8")));
+    await mill.choose(...files);
+    await mill.until("bottom.toml", "job");
+    await mill.page.click("#show-panel");
+  }, PATIENCE_MS);
+  afterAll(() => mill?.close());
+
+  const field = (label: string) => mill.page.locator("#setup-form label", { hasText: label }).locator("input, select");
+
+  it(
+    "are turned to, changed and milled again, the second one on what the first one leaves",
+    async () => {
+      const { page } = mill;
+      await expect.poll(() => field("set-up").inputValue()).toBe("bottom.toml");
+      expect(await field("clamped").inputValue()).toBe("over x");
+      expect([await field("zero y").inputValue(), await field("zero z").inputValue()]).toEqual(["40", "-20"]);
+      expect(await violations(page)).toEqual([]);
+      await mill.picture("two-set-ups");
+      await field("set-up").selectOption("top.toml");
+      await expect.poll(() => page.inputValue("#job-text")).toContain("box_mm = [[0, 0, -20]");
+      const diameter = field("diameter").first();
+      await diameter.fill("9");
+      await diameter.blur();
+      await page.click("#mill-again");
+      await page.waitForSelector("#setup-back:not([disabled])", { timeout: PATIENCE_MS });
+      // The first one stays at hand, and the second one is milled.
+      expect(await field("set-up").inputValue()).toBe("top.toml");
+      expect(await mill.text("job")).toBe("bottom.toml");
+      expect(await page.inputValue("#job-text")).toContain("diameter_mm = 9");
+      await field("set-up").selectOption("bottom.toml");
+      await field("clamped").selectOption("over y");
+      expect(await page.inputValue("#job-text")).toContain("x_axis = [-1, 0, 0]");
+      await page.click("#setup-undo");
+      expect(await field("clamped").inputValue()).toBe("over x");
+    },
+    2 * PATIENCE_MS,
   );
 
   it("makes no error", () => expect(mill.problems).toEqual([]));

@@ -4,6 +4,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { violations } from "../../testing/axe.js";
 import { file, PATIENCE_MS } from "../../testing/browser.js";
+import { EXAMPLES, WIDE } from "../src/gallery/list.js";
 import { hasMillPage, JOB, MillPage, PROGRAM } from "../../testing/mill_page.js";
 
 describe.runIf(hasMillPage)("the page without an engine", () => {
@@ -430,23 +431,56 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
     async () => {
       const visitor = await browser.newPage({ viewport: { width: 1000, height: 700 }, reducedMotion: "reduce" });
       mill.watch(visitor);
+      const pictures: number[] = [];
+      visitor.on("response", async (response) => {
+        if (response.url().endsWith(".jpg")) pictures.push((await response.body()).length);
+      });
       await visitor.goto(`${server.root}/mill/`);
-      await visitor.waitForSelector("#examples button", { timeout: PATIENCE_MS });
-      const names = await visitor.locator("#examples button").allTextContents();
-      expect(names.length).toBeGreaterThan(4);
-      for (const name of names) {
-        await visitor.click(`#examples button:text-is("${name}")`);
-        await visitor.waitForFunction(
-          (want) => document.getElementById("job")?.textContent === `${want.toLowerCase()}.toml`,
-          name,
-          { timeout: PATIENCE_MS },
-        );
+      await visitor.waitForSelector("#examples:not([hidden])", { timeout: PATIENCE_MS });
+      expect(pictures).toEqual([]);
+      for (const { job, name } of EXAMPLES) {
+        await visitor.click("#examples");
+        const card = visitor.locator(`#gallery-examples button[data-job="${job}"]`);
+        expect(await card.textContent()).toContain(name);
+        await card.scrollIntoViewIfNeeded();
+        await expect
+          .poll(() => card.locator("img").evaluate((image: HTMLImageElement) => image.naturalWidth), {
+            timeout: PATIENCE_MS,
+          })
+          .toBe(WIDE);
+        await card.click();
+        await visitor.waitForFunction((want) => document.getElementById("job")?.textContent === want, job, {
+          timeout: PATIENCE_MS,
+        });
         await visitor.waitForSelector("#program-lines [data-line]", { timeout: PATIENCE_MS });
         expect(await visitor.isVisible("#notice-box")).toBe(false);
       }
+      // A few kB each.
+      expect(Math.max(...pictures)).toBeLessThan(16_000);
       await visitor.close();
     },
-    2 * PATIENCE_MS,
+    4 * PATIENCE_MS,
+  );
+
+  it(
+    "shows the examples to those who do not see, and on a phone",
+    async () => {
+      const visitor = await browser.newPage({ viewport: { width: 390, height: 844 }, reducedMotion: "reduce" });
+      mill.watch(visitor);
+      await visitor.goto(`${server.root}/mill/`);
+      await visitor.waitForSelector("#examples:not([hidden])", { timeout: PATIENCE_MS });
+      await visitor.focus("#examples");
+      await visitor.keyboard.press("Enter");
+      await visitor.waitForSelector("#gallery[open]");
+      expect(await violations(visitor)).toEqual([]);
+      expect(await visitor.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+      await visitor.keyboard.press("Tab");
+      expect(await visitor.evaluate(() => document.activeElement?.getAttribute("data-job"))).toBe("bowl.toml");
+      await visitor.keyboard.press("Escape");
+      await visitor.waitForSelector("#gallery", { state: "hidden" });
+      await visitor.close();
+    },
+    PATIENCE_MS,
   );
 
   it(

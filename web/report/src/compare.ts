@@ -2,11 +2,11 @@
 // The page of a comparison: two parts under one camera, values along the cut, one place in both runs, two sounds.
 
 import { element } from "@tribo/ui/dom";
-import { count, data, SIDES, tipAt } from "./compare_data.js";
+import { count, data, say, SIDES, tipAt } from "./compare_data.js";
 import { lanePlots } from "./compare_lanes.js";
-import { follow, goTo, listenToClock, place, wordsAt } from "./compare_place.js";
+import { follow, goTo, listenToClock, place, said, wordsAt } from "./compare_place.js";
 import { abSound } from "./compare_sound.js";
-import { largest, short } from "./numbers.js";
+import { largest } from "./numbers.js";
 import type { Camera } from "./part_camera.js";
 import { bytesIn, nameScale, partScene, type Scene } from "./part_scene.js";
 
@@ -46,7 +46,7 @@ function partViews(): void {
     scale.hidden = !on;
     for (const scene of scenes) scene.colourBy(on);
   };
-  nameScale(scale, short(range), "B cuts deeper", "B leaves more");
+  nameScale(scale, said(range), say("B cuts deeper"), say("B leaves more"));
   choice.hidden = false;
   choice.addEventListener("change", (e) => colourBy((e.target as HTMLInputElement).value === "deviation"));
   colourBy(true);

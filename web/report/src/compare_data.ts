@@ -34,6 +34,8 @@ interface CompareData {
   width: number[];
   a: Side;
   b: Side;
+  /** What the page says, in another language than English. */
+  words?: Record<string, string>;
 }
 
 export const data = JSON.parse(element("data").textContent ?? "") as CompareData;
@@ -51,4 +53,9 @@ export function differenceAt(lane: number, step: number): number | null {
   const a = data.a.values[lane]![step] ?? null;
   const b = data.b.values[lane]![step] ?? null;
   return a === null || b === null ? null : b - a;
+}
+
+/** In the language of the page. `{name}` in the text is the value of that name. */
+export function say(text: string, values: Record<string, string | number> = {}): string {
+  return (data.words?.[text] ?? text).replace(/\{(\w+)\}/g, (_, name: string) => String(values[name]));
 }

@@ -2,7 +2,7 @@
 // The place in the cut that views, plots and readouts share, and the clock that moves it.
 
 import { element } from "@tribo/ui/dom";
-import { count, data, type SideName } from "./compare_data.js";
+import { count, data, say, type SideName } from "./compare_data.js";
 import { clamp, short } from "./numbers.js";
 
 /** The whole cut plays in this time, s. */
@@ -37,15 +37,19 @@ export function stepAt(at: number): number {
   return low;
 }
 
+/** With the decimal sign of the page. */
+export const said = (value: number) => short(value).replace(".", say("."));
+
 /** What a run does there, in words. */
 export function wordsAt(side: SideName, step: number): string {
   const run = data[side];
-  if (run.t[step] === null) return "cuts nothing here";
+  if (run.t[step] === null) return say("cuts nothing here");
   const known = data.lanes
     .map((lane, n) => [lane, run.values[n]![step]] as const)
     .filter(([, value]) => value !== null && value !== undefined)
-    .map(([lane, value]) => `${lane.name} ${short(value!)}${lane.unit && ` ${lane.unit}`}`);
-  return `line ${run.line[step]} at ${short(run.t[step]!)} s: ${known.join(", ")}`;
+    .map(([lane, value]) => `${lane.name} ${said(value!)}${lane.unit && ` ${lane.unit}`}`);
+  const values = known.join(", ");
+  return say("line {line} at {time} s: {values}", { line: run.line[step]!, time: said(run.t[step]!), values });
 }
 
 let playing = 0;
@@ -53,7 +57,7 @@ let playing = 0;
 function stop(): void {
   cancelAnimationFrame(playing);
   playing = 0;
-  button.textContent = "Play";
+  button.textContent = say("Play");
 }
 
 function play(): void {
@@ -61,7 +65,7 @@ function play(): void {
   const all = data.at[count - 1]! + data.width[count - 1]! - first;
   let at = place === count - 1 ? first : data.at[place]!;
   let last = performance.now();
-  button.textContent = "Pause";
+  button.textContent = say("Pause");
   const tick = (now: number) => {
     at += (all * (now - last)) / (1000 * PLAYS_S);
     last = now;

@@ -2,7 +2,7 @@
 // Both sounds run at the same time; the switch fades from one to the other, so that no gap is heard.
 
 import { element } from "@tribo/ui/dom";
-import { SIDES, type SideName } from "./compare_data.js";
+import { say, SIDES, type SideName } from "./compare_data.js";
 import { bytesIn } from "./part_scene.js";
 
 /** Time constant of the fade, s: too short to be heard as one, too long for a click. */
@@ -36,7 +36,7 @@ export function abSound(): void {
   };
   button.addEventListener("click", () => {
     const plays = context?.state === "running";
-    button.textContent = plays ? "Play" : "Pause";
+    button.textContent = plays ? say("Play") : say("Pause");
     if (!context) void start();
     else void (plays ? context.suspend() : context.resume());
   });

@@ -15,6 +15,9 @@ import { turnPlots } from "./turn_plots.js";
 export * from "./shared.js";
 export * from "./state.js";
 
+// The date of the file, not in it: a report of the same files has the same bytes.
+element("written").textContent = `Written ${new Date(document.lastModified).toLocaleString()}.`;
+
 const remove = (id: string) => element(id).remove();
 
 if (count) {

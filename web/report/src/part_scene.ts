@@ -10,6 +10,8 @@ import { element, fitToScreen, vec3 } from "./shared.js";
 
 const MOST_PIXEL_RATIO = 2;
 const MARK_PX = 13;
+// More vertices need longer indices.
+const MOST_SHORT = 65_536;
 
 type Uniform = (name: string) => WebGLUniformLocation | null;
 
@@ -40,7 +42,7 @@ function load(gl: WebGL2RenderingContext, program: WebGLProgram, part: Part, byt
   const take = (size: number) => bytes.subarray(at, (at += size));
   const places = take(6 * part.vertices);
   const deviations = take(part.deviation_step === undefined ? 0 : 2 * part.vertices);
-  const indices = take(6 * part.triangles);
+  const indices = take((part.vertices > MOST_SHORT ? 12 : 6) * part.triangles);
   const untouched = take(part.vertices);
   const attribute = (name: string, list: Uint8Array, size: number, type: number) => {
     const where = gl.getAttribLocation(program, name);
@@ -94,6 +96,7 @@ export function partScene(canvas: HTMLCanvasElement, options: SceneOptions): Sce
   const half = vec3((k) => 0.5 * part.step * top[k]);
   const centre = vec3((k) => part.origin[k] + half[k]);
   const camera = options.camera ?? new Camera(centre, half);
+  const indexType = part.vertices > MOST_SHORT ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT;
   let byDeviation = false;
   let wanted = false;
 
@@ -113,7 +116,7 @@ export function partScene(canvas: HTMLCanvasElement, options: SceneOptions): Sce
     gl.uniform3f(ofPart("scales"), part.step, part.deviation_step ?? 0, part.deviation_range ?? 1);
     gl.uniform3fv(ofPart("eye"), from);
     gl.uniform1i(ofPart("deviations"), Number(byDeviation));
-    gl.drawElements(gl.TRIANGLES, 3 * part.triangles, gl.UNSIGNED_SHORT, 0);
+    gl.drawElements(gl.TRIANGLES, 3 * part.triangles, indexType, 0);
     const tip = options.tip();
     if (!tip) return;
     gl.useProgram(mark);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // report.html as `tribo render` writes it, opened as a file: the part in 3D, without a network, and without WebGL.
 import { execFileSync } from "node:child_process";
+import { createHash } from "node:crypto";
 import { existsSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -13,6 +14,8 @@ import { jobText } from "../../testing/job.js";
 import { coloursOf, watch } from "../../testing/offline_page.js";
 import { PROGRAM } from "../../tools/places.js";
 
+// Kept to be looked at, if TRIBO_PICTURES names a folder.
+const PAPER = process.env.TRIBO_PICTURES && join(process.env.TRIBO_PICTURES, "report.pdf");
 const JOB = jobText(
   "[[0, 0, -8], [40, 20, 0]]",
   `[part]
@@ -62,6 +65,34 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the report", () => {
   it("is one file of less than 5 MB that asks for nothing else", () => {
     expect(asked.filter((url) => !url.startsWith("data:"))).toEqual([address]);
     expect(statSync(join(folder, "out/report.html")).size).toBeLessThan(5e6);
+    expect(problems).toEqual([]);
+  });
+
+  it("prints a set-up sheet, tools, files and the worst lines, and nothing for a hand", async () => {
+    const sheet = (await page.textContent("#sheet"))!;
+    for (const said of [
+      "Set-up sheet",
+      "40 x 20 x 8 mm, from (0, 0, -8) to (40, 20, 0) mm",
+      "ball 6 flutes 2",
+      "not given",
+    ])
+      expect(sheet).toContain(said);
+    for (const text of [JOB, PROGRAM_TEXT, PLANE])
+      expect(sheet).toContain(createHash("sha256").update(text).digest("hex"));
+    expect(await page.textContent("#written")).toMatch(/^Written .*20\d\d/);
+    // Both grooves, the wider step first.
+    const lines = page.locator("#sheet section").first().locator("tr");
+    expect(await lines.count()).toBe(3);
+    await page.emulateMedia({ media: "print", colorScheme: "dark" });
+    try {
+      for (const hidden of [".scrub", ".choices", "audio", ".readout"])
+        for (const one of await page.locator(hidden).all()) expect(await one.isVisible()).toBe(false);
+      expect(await page.evaluate(() => getComputedStyle(document.body).backgroundColor)).toBe("rgb(255, 255, 255)");
+      const paper = await page.pdf({ preferCSSPageSize: true, printBackground: true, path: PAPER });
+      expect(paper.length).toBeLessThan(3e6);
+    } finally {
+      await page.emulateMedia({ media: null, colorScheme: null });
+    }
     expect(problems).toEqual([]);
   });
 

@@ -21,16 +21,14 @@ export interface Span {
   seconds: number;
 }
 
-/** Takes fresh modules; `files` by name, with their text; the ear is open at RATE. */
-export function clipOf(
-  mill: MillExports,
-  ear: MillSoundExports,
-  files: Record<string, string>,
-  job: string,
-  { from_s, skip_s, seconds }: Span,
-): Clip {
+/** Opens a job in a fresh module; `files` by name, with their text. */
+export function openFiles(mill: MillExports, files: Record<string, string>, job: string): void {
   for (const [name, text] of Object.entries(files)) putFile(mill, name, text);
   if (!openMill(mill, job)) throw new Error(textAt(mill, mill.mill_text()));
+}
+
+/** A job is open in the mill, and the fresh ear at RATE. */
+export function clipOf(mill: MillExports, ear: MillSoundExports, { from_s, skip_s, seconds }: Span): Clip {
   obey(mill, { op: "seek", t_s: from_s });
   obey(mill, { op: "play" });
   const skipped = Math.round(skip_s * RATE);

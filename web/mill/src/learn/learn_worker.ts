@@ -3,7 +3,7 @@
 
 import type { MillExports, MillSoundExports } from "@tribo/wasm/exports";
 import { compile, instantiate } from "@tribo/wasm/module";
-import { clipOf, RATE, type Clip, type Span } from "./clip.js";
+import { clipOf, openFiles, RATE, type Clip, type Span } from "./clip.js";
 import { hear, powersOf, type Heard } from "./measure.js";
 
 export interface ToMill {
@@ -28,7 +28,9 @@ async function listen({ files, job, span, spindleHz, flutes }: ToMill): Promise<
   // New ones each time: their memory never shrinks.
   const sound = await instantiate(await ear);
   sound.sound_open(RATE);
-  const clip = clipOf(await instantiate(await mill), sound, files, job, span);
+  const miller = await instantiate(await mill);
+  openFiles(miller, files, job);
+  const clip = clipOf(miller, sound, span);
   return { clip, heard: hear(clip[0], RATE, spindleHz, flutes), powers: powersOf(clip[0]) };
 }
 

@@ -6,6 +6,7 @@ import { feedUnit, fromField, lengthUnit, onUnit, toField } from "../texts/figur
 import { t, word } from "../texts/texts.js";
 import type { SetUp } from "../sources/workshop.js";
 import { boxOf, moved, textOf, type Box } from "./stock_box.js";
+import { clampingOf, withClamping, withZero, zeroOf, type Clamping } from "./chain.js";
 import { Undo } from "./undo.js";
 import { entriesOf, quoted, unquoted, withKey, withoutLine, withValue, type Entry } from "./job_text.js";
 
@@ -26,7 +27,16 @@ const NUMBERS: Field[] = [
 
 export interface Known extends SetUp {
   name: string; // of the job file
+  /** The jobs of a chain of set-ups, of which it is one. */
+  chain: string[];
 }
+
+const CLAMPINGS: Record<Clamping, string> = {
+  same: word("as before"),
+  "over x": word("turned over about x"),
+  "over y": word("turned over about y"),
+  other: word("as the text says"),
+};
 
 function labelled(label: string, input: HTMLElement, unit = ""): HTMLElement {
   const box = document.createElement("label");
@@ -81,11 +91,12 @@ export class SetUpCard {
 
   /**
    * `run` mills this job in place of the one here; it returns whether it was taken. `stock` is called with the box of the
-   * stock whenever it may have changed; undefined: there is none to set up.
+   * stock whenever it may have changed; undefined: there is none to set up. `turnTo` shows another job of the chain.
    */
   constructor(
     private readonly run: (text: string) => Promise<boolean>,
     private readonly stock: (box: Box | undefined) => void,
+    private readonly turnTo: (name: string) => void,
   ) {
     this.text.addEventListener("change", () => this.change(this.text.value));
     this.undoButton.addEventListener("click", () => this.restore(this.undo.undo()));
@@ -115,6 +126,11 @@ export class SetUpCard {
     if (!this.known || this.text.value === this.known.text) return;
     this.before.push(this.known.text);
     if (!(await this.run(this.text.value))) this.before.pop();
+  }
+  // What was changed is milled, so that nothing is lost.
+  private async turn(to: string): Promise<void> {
+    await this.again();
+    this.turnTo(to);
   }
   private async goBack(): Promise<void> {
     const text = this.before.pop();
@@ -148,7 +164,9 @@ export class SetUpCard {
   }
   /** Says which box the stock has. */
   tellStock(): void {
-    const entry = this.known && this.stockEntry();
+    // The picture is in the coordinates of the last set-up.
+    const isLast = this.known !== undefined && [this.known.name, undefined].includes(this.known.chain.at(-1));
+    const entry = isLast ? this.stockEntry() : undefined;
     this.stock(entry && boxOf(entry.raw));
   }
   private stockEntry(): Entry | undefined {
@@ -175,6 +193,14 @@ export class SetUpCard {
     const put = (entry: Entry) => (raw: string) => this.change(withValue(text, entry.line, raw));
     const find = (table: string, key: string) => entries.find((e) => e.table === table && e.key === key);
 
+    if (known.chain.length > 1)
+      fields.push(
+        labelled(
+          t("set-up"),
+          choice(known.chain, known.name, (to) => void this.turn(to)),
+        ),
+      );
+    if (find("stock", "from")) fields.push(...this.clamping(text));
     const material = find("material", "name");
     const named = material && unquoted(material.raw);
     if (material && named !== undefined)
@@ -215,6 +241,30 @@ export class SetUpCard {
     const focus = [...element("setup-form").querySelectorAll("input, select")].indexOf(document.activeElement!);
     element("setup-form").replaceChildren(...fields);
     if (focus >= 0) element("setup-form").querySelectorAll<HTMLElement>("input, select")[focus]?.focus();
+  }
+
+  // How it stands in the stock of the earlier set-up.
+  private clamping(text: string): HTMLElement[] {
+    const now = clampingOf(text);
+    const select = document.createElement("select");
+    for (const [value, words] of Object.entries(CLAMPINGS) as [Clamping, string][])
+      if (value !== "other" || now === "other") select.add(new Option(t(words), value));
+    select.value = now;
+    select.addEventListener("change", () => this.change(withClamping(text, select.value as Clamping)));
+    const zero = zeroOf(text);
+    const fields = (["x", "y", "z"] as const).flatMap((name, n) => {
+      if (!zero) return [];
+      const field = lengthField(String(zero[n]), (value) =>
+        this.change(
+          withZero(
+            text,
+            zero.map((mm, k) => (k === n ? Number(value) : mm)),
+          ),
+        ),
+      );
+      return [labelled(t("zero {axis}", { axis: name }), field, lengthUnit())];
+    });
+    return [labelled(t("clamped"), select), ...fields];
   }
 
   private corners(box: Box, put: (raw: string) => void): HTMLElement[] {

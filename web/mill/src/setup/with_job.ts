@@ -8,8 +8,9 @@ export function jobNameOf({ job }: Pick<Order, "job">): string {
   return /\.toml$/i.test(job) ? job : `${job.replace(/^.*\//, "").replace(/\.\w+$/, "")}.toml`;
 }
 
-export function withJob(order: Order, text: string): Order {
-  const name = jobNameOf(order);
-  const job = { name, bytes: new TextEncoder().encode(text).buffer };
-  return { ...order, files: [...order.files.filter((file) => file.name !== name), job], job: name };
+/** `name`: of an earlier job of the chain, whose text it is; else it is that of the order. */
+export function withJob(order: Order, text: string, name = jobNameOf(order)): Order {
+  const file = { name, bytes: new TextEncoder().encode(text).buffer };
+  const files = [...order.files.filter((other) => other.name !== name), file];
+  return { ...order, files, job: name === jobNameOf(order) ? name : order.job };
 }

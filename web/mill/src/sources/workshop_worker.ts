@@ -8,7 +8,8 @@ import { openMill, putFile, tickMill } from "@tribo/wasm/mill";
 import { obey } from "@tribo/wasm/mill_command";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
 import type { Command, Settings } from "@tribo/protocol/messages";
-import type { FromWorker, JobFile, Order, SetUp, ToWorker } from "./workshop.js";
+import { unpacked } from "./unpacked.js";
+import type { FromWorker, Order, SetUp, ToWorker } from "./workshop.js";
 
 const TICK_MS = 1000 / 60;
 // Largest part of a tick for milling.
@@ -26,13 +27,6 @@ const LONGEST_STEP_S = 0.1;
 
 function post(message: FromWorker, transfer: Transferable[] = []): void {
   (self as unknown as { postMessage(m: unknown, t: Transferable[]): void }).postMessage(message, transfer);
-}
-
-async function unpacked(file: JobFile): Promise<Uint8Array> {
-  const bytes = new Uint8Array(file.bytes);
-  if (bytes[0] !== 0x1f || bytes[1] !== 0x8b) return bytes;
-  const stream = new Blob([file.bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
 class Mill {

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#include "files/sha256.hpp"
+
+#include <array>
+#include <openssl/sha.h>
+
+namespace tribo::files {
+
+std::string sha256(std::string_view bytes) {
+    std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
+    SHA256(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), digest.data());
+    std::string hex;
+    for (const unsigned char byte : digest) {
+        hex += "0123456789abcdef"[byte >> 4];
+        hex += "0123456789abcdef"[byte & 15];
+    }
+    return hex;
+}
+
+}  // namespace tribo::files
