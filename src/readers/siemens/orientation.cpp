@@ -144,7 +144,12 @@ Result<void> Interpreter::transform_kinematics(const Words& words) {
     }
     if (path_.frame.is_tilted())
         return path_.refuse(where, "TRACYL in a tilted plane", "end CYCLE800 before it");
-    if (!path_.machine) path_.note_machine_needed(line_number(), "a path on a cylinder (TRACYL)");
+    if (!path_.machine) {
+        if (!path_.program.has_rotary_words) path_.program.first_rotary_line = line_number();
+        path_.program.has_rotary_words = true;
+        if (passed_over_.insert("TRACYL").second)
+            path_.warn(line_number(), "TRACYL without a machine: its plane is taken as flat");
+    }
     if (path_.roll(radius_mm, line_number())) return {};
     return path_.refuse(where,
                         "the machine " + path_.machine->machine().name +
