@@ -70,7 +70,8 @@ ToolPose Kinematics::pose(const Joints& joints) const {
 }
 
 // A direction of the tool's side, seen from the part.
-Vec3 Kinematics::turned_by_all(Vec3 direction, Vec3 rotary_rad) const {
+Vec3 Kinematics::direction(Vec3 in_machine, Vec3 rotary_rad) const {
+    Vec3 direction = in_machine;
     for (int i = rotary_count_ - 1; i >= 0; --i) {
         const Factor& f = factors_[static_cast<std::size_t>(rotary_[static_cast<std::size_t>(i)])];
         direction = turned(direction, f.direction, rotary_rad[f.word - 3] - f.zero);
@@ -79,12 +80,12 @@ Vec3 Kinematics::turned_by_all(Vec3 direction, Vec3 rotary_rad) const {
 }
 
 Vec3 Kinematics::axis(Vec3 rotary_rad) const {
-    return turned_by_all(kSpindle, rotary_rad);
+    return direction(kSpindle, rotary_rad);
 }
 
 double Kinematics::turn_rad(Vec3 rotary_rad) const {
     const Vec3 axis = normalized(this->axis(rotary_rad));
-    return angle_about(axis, turned_upright({1, 0, 0}, axis), turned_by_all({1, 0, 0}, rotary_rad));
+    return angle_about(axis, turned_upright({1, 0, 0}, axis), direction({1, 0, 0}, rotary_rad));
 }
 
 Joints Kinematics::with_tip(Vec3 tip_in_stock_mm, Vec3 rotary_rad) const {

@@ -37,6 +37,8 @@ class Kinematics {
     ToolPose pose(const Joints& joints) const;
     // Returns the tool's axis alone; X, Y and Z do not matter.
     Vec3 axis(Vec3 rotary_rad) const;
+    // Returns where a direction of the machine, fixed to the tool's side, points in the stock.
+    Vec3 direction(Vec3 in_machine, Vec3 rotary_rad) const;
     // Returns the turn of the head about the tool's axis (ToolPose).
     double turn_rad(Vec3 rotary_rad) const;
     // Returns the joints that bring the tip to this point with these rotary values.
@@ -73,7 +75,6 @@ class Kinematics {
         bool free = false;
     };
     void add(const MachineAxis& axis, double sign, Vec3 shift);
-    Vec3 turned_by_all(Vec3 direction, Vec3 rotary_rad) const;
     int solve_turns(Vec3 axis, std::array<Turn, 2>& turns) const;
     double nearest_turn(const Factor& factor, double angle_rad, double near, bool& within) const;
 

@@ -71,6 +71,16 @@ void Contour::add(Vec3 to, const std::optional<motion::Arc>& arc, const ContourW
     programmed_ = to;
 }
 
+void Contour::add_steps(const std::vector<ContourStep>& steps, double z, const ContourWords& words) {
+    for (std::size_t i = 1; i < steps.size(); ++i) {
+        const ContourStep& step = steps[i];
+        add({step.to.x, step.to.y, z}, step.arc, words);
+        const bool is_last = i + 1 == steps.size();
+        if (step.corner_mm > 0 && !is_last)
+            corner(step.corner_mm, step.is_chamfer, words, step.is_own_length);
+    }
+}
+
 void Contour::corner(double size_mm, bool is_chamfer, const ContourWords& words, bool is_own_length) {
     Piece piece;
     piece.is_corner = true;
@@ -314,6 +324,16 @@ Result<Contour::Pieces> Contour::work_out(const Path& path) const {
     if (!pieces) return pieces;
     if (auto done = append_departure(path, *pieces); !done) return std::unexpected(done.error());
     return pieces;
+}
+
+Result<std::vector<gcode::Element>> Contour::elements(const Path& path) const {
+    const auto pieces = with_corners(path);
+    if (!pieces) return std::unexpected(pieces.error());
+    std::vector<Element> flat_ones;
+    for (const Piece& piece : *pieces) {
+        if (piece.is_flat()) flat_ones.push_back(piece.element);
+    }
+    return flat_ones;
 }
 
 Result<Vec3> Contour::begin(const Path& path) const {

@@ -37,6 +37,14 @@ struct ContourEndShape {
     ContourWords way;      // APPR: words of the way to the auxiliary point
 };
 
+// A contour that a cycle follows: a way to a point of the plane, with the corner behind it.
+struct ContourStep {
+    Vec3 to;
+    std::optional<motion::Arc> arc;
+    double corner_mm = 0;
+    bool is_chamfer = false, is_own_length = false;
+};
+
 class Contour {
   public:
     bool is_open() const { return is_open_; }
@@ -52,6 +60,8 @@ class Contour {
     void open(Vec3 tip, int side, double radius_mm, bool has_entry);
     void approach(const ContourEndShape& shape, const ContourWords& words);
     void add(Vec3 to, const std::optional<motion::Arc>& arc, const ContourWords& words);
+    // Adds the steps behind the first one, at a height.
+    void add_steps(const std::vector<ContourStep>& steps, double z, const ContourWords& words);
     // The size of a chamfer is what it takes from each element, or its own length.
     void corner(double size_mm, bool is_chamfer, const ContourWords& words, bool is_own_length = false);
     // Removes a corner that no element follows.
@@ -61,6 +71,8 @@ class Contour {
     // Ends the contour with DEP. Returns the position after it.
     void depart(const ContourEndShape& shape, const ContourWords& words);
 
+    // The elements in the plane, with their corners, without compensation and ends.
+    Result<std::vector<gcode::Element>> elements(const Path& path) const;
     // Where the approach begins: the tool goes there first.
     Result<Vec3> begin(const Path& path) const;
     // Moves the tool along the contour, and closes it.

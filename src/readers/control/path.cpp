@@ -107,6 +107,7 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
         if (turns && !feed_on_part && (!in_stock() || length == 0))
             move.duration_s = turning_time_s(length, to_rad - now_rad_, move.feed_mm_per_min, rotary_feed);
     }
+    if (roll_ && machine) return move_rolled(move, to_rad, place);
     const Vec3 from_rad = std::exchange(now_rad_, to_rad);
     place_mm_ = move.end.tip_mm;
     if (!machine) return append(move);
@@ -123,7 +124,11 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
     block.arc = move.arc;
     block.start_rad = from_rad;
     block.end_rad = to_rad;
-    const auto* pieces = machine->run(block, move, options.max_moves - moves + 1);
+    return run_block(block, move, place);
+}
+
+Result<void> Path::run_block(const motion::MachineBlock& block, const motion::Move& like, Place place) {
+    const auto* pieces = machine->run(block, like, options.max_moves - moves + 1);
     if (pieces == nullptr) return refuse(place, MachineRun::kTooManyPieces, MachineRun::kFewerPieces);
     for (const motion::Move& piece : *pieces) {
         if (auto done = append(piece); !done) return done;
@@ -135,13 +140,14 @@ motion::ToolPose Path::pose_in_stock() const {
     if (!machine) return {place_mm_, axis_};
     motion::MachineBlock block;
     block.tip_control = in_stock();
-    block.start_mm = block.end_mm = place_mm_;
-    block.start_rad = block.end_rad = now_rad_;
+    block.start_mm = block.end_mm = linear_at(place_mm_);
+    block.start_rad = block.end_rad = rotary_at(place_mm_, now_rad_);
     return motion::pose_at(machine->kinematics(), block, 0);
 }
 
 Result<void> Path::follow(const motion::BSpline<motion::HomogeneousPoint>& curve, Place place) {
     if (!feed_mm_per_min) return refuse(place, "a feed move before any F", "write F before it");
+    if (roll_) return refuse(place, "a spline on a cylinder is not read", "write lines and circles");
     if (auto good = in_range(kLimits.feed, *feed_mm_per_min, place); !good) return good;
     const motion::ToolPose from = pose_in_stock();
     motion::BSplineMotion motion;
@@ -245,7 +251,7 @@ void Path::switch_tip_control(bool on, int line) {
                    : machine->kinematics().with_tip(place_mm_, now_rad_).linear_mm - zero;
 }
 
-bool Path::tilt(const motion::WorkFrame& plane, bool keep_tip, int line) {
+bool Path::tilt(const motion::WorkFrame& plane, bool keep_tip, int line, const std::optional<Vec3>& to_rad) {
     if (!machine) {
         const bool turns = distance(axis_, plane.z) > 1e-12;
         frame = plane;
@@ -254,16 +260,22 @@ bool Path::tilt(const motion::WorkFrame& plane, bool keep_tip, int line) {
         return true;
     }
     const motion::Kinematics& kinematics = machine->kinematics();
-    const auto reached = kinematics.joints({{}, plane.z}, {{}, now_rad_});
-    if (!reached) return false;
-    const bool known = knows_tip() && !machine->needs_tool_length(now_rad_) &&
-                       !machine->needs_tool_length(reached->joints.rotary_rad);
+    Vec3 turned_rad;
+    if (to_rad) {
+        turned_rad = *to_rad;
+    } else {
+        const auto reached = kinematics.joints({{}, plane.z}, {{}, now_rad_});
+        if (!reached) return false;
+        turned_rad = reached->joints.rotary_rad;
+    }
+    const bool known =
+        knows_tip() && !machine->needs_tool_length(now_rad_) && !machine->needs_tool_length(turned_rad);
     motion::Joints joints{place_mm_ + kinematics.stock_mm(), now_rad_};
     if (in_stock()) joints = kinematics.with_tip(place_mm_, now_rad_);
     const Vec3 tip = kinematics.pose(joints).tip_mm;
-    if (!keep_tip) joints.rotary_rad = reached->joints.rotary_rad;
+    if (!keep_tip) joints.rotary_rad = turned_rad;
     const Vec3 swung = kinematics.pose(joints).tip_mm;
-    now_rad_ = reached->joints.rotary_rad;
+    now_rad_ = turned_rad;
     frame = plane;
     if (!known && !(keep_tip && in_stock() && knows_tip())) {
         lose(line);

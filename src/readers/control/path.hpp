@@ -26,6 +26,16 @@ struct Place {
     int line = 0, column = 0;
 };
 
+// A plane that is rolled about a rotary axis of the machine: x or y runs along the axis, the other one around
+// it at the radius, and z is the distance from it.
+struct Roll {
+    int along = 0, around = 1;  // 0 x, 1 y
+    int rotary = 0;             // 0 A, 1 B, 2 C
+    double radius_mm = 0;
+    double way = 1;       // of the rotary word for a growing coordinate around it
+    double aside_mm = 0;  // where the machine's axis of that coordinate stays
+};
+
 class Path {
   public:
     // Moves go to the sink, or into the program if `sink` is null.
@@ -97,8 +107,16 @@ class Path {
     void switch_tip_control(bool on, int line);
     // Makes the tool normal to a plane and uses the coordinates of the plane. The tip stays if `keep_tip` is
     // true. Else it goes where the rotary axes of the machine lead it; without a machine its position is
-    // lost. Returns false if no angle of the machine reaches the plane.
-    bool tilt(const motion::WorkFrame& plane, bool keep_tip, int line);
+    // lost. Returns false if no angle of the machine reaches the plane. `to_rad`: its angles, if they are
+    // given.
+    bool tilt(const motion::WorkFrame& plane, bool keep_tip, int line,
+              const std::optional<Vec3>& to_rad = {});
+
+    // Rolls x and y about the innermost rotary axis of the machine's table. The tool does not move. Without a
+    // machine the plane stays flat. Returns false if that axis does not run along x or y.
+    bool roll(double radius_mm, int line);
+    void unroll();
+    const std::optional<Roll>& rolled() const { return roll_; }
 
     bool first(int note);
     void warn(int line, std::string text);
@@ -114,6 +132,11 @@ class Path {
     motion::ToolPose pose_in_stock() const;
     // True when coordinates are those of the tip in the stock. Without a machine this is always so.
     bool in_stock() const { return !machine || tip_control || frame.is_tilted(); }
+    Result<void> run_block(const motion::MachineBlock& block, const motion::Move& like, Place place);
+    Result<void> move_rolled(motion::Move move, Vec3 to_rad, Place place);
+    // The linear and rotary values of the machine at a place of the plane that is rolled.
+    Vec3 linear_at(Vec3 place_mm) const;
+    Vec3 rotary_at(Vec3 place_mm, Vec3 rotary_rad) const;
 
     MoveSink* sink_;
     std::map<int, double> given_lengths_mm_, declared_lengths_mm_;  // by number of the tool
@@ -122,6 +145,7 @@ class Path {
     Vec3 place_mm_;  // tip in the frame of the stock; on a machine without tip control its X Y Z
     std::array<Known, 3> known_{Known::unstated, Known::unstated, Known::unstated};
     int lost_line_ = 0;
+    std::optional<Roll> roll_;
     Vec3 now_rad_;
     Vec3 axis_{0, 0, 1}, aim_{0, 0, 1};
     std::array<bool, 64> noted_{};

@@ -85,13 +85,8 @@ class Mill {
 
     // Turns about a centre at the feed.
     Result<void> turn(Vec3 centre, double turn_rad, double z) {
-        const double c = math::cos(turn_rad), s = math::sin(turn_rad);
-        const double u = now_.x - centre.x, v = now_.y - centre.y;
-        motion::Arc arc;
-        arc.centre_mm = {centre.x, centre.y, now_.z};
-        arc.normal = {0, 0, turn_rad < 0 ? -1.0 : 1.0};
-        arc.turn_rad = std::abs(turn_rad);
-        return to({centre.x + c * u - s * v, centre.y + s * u + c * v, z}, shape_.feed, arc);
+        const Turn turned = turn_about(now_, centre, turn_rad, z);
+        return to(turned.to, shape_.feed, turned.arc);
     }
 
   private:
@@ -101,7 +96,27 @@ class Mill {
     double cosine_, sine_;
 };
 
+// Rings about a stud with equal sides, in a round blank.
+double rings_of_polygon_pass(const Polygon& polygon) {
+    const Pocket& stud = polygon.stud;
+    const double step = step_of(stud), left = stud.blank_half_width - stud.half_width - stud.allowance;
+    if (stud.along_edge || !(step > 0) || !(left > 0)) return 1;
+    return std::max(1.0, std::ceil(left / step - 1e-9));
+}
+
 }  // namespace
+
+Turn turn_about(Vec3 from, Vec3 centre, double turn_rad, double z) {
+    double sine = 0, cosine = 0;
+    math::sincos(turn_rad, sine, cosine);
+    const double u = from.x - centre.x, v = from.y - centre.y;
+    Turn turned;
+    turned.to = {centre.x + cosine * u - sine * v, centre.y + sine * u + cosine * v, z};
+    turned.arc.centre_mm = {centre.x, centre.y, from.z};
+    turned.arc.normal = {0, 0, turn_rad < 0 ? -1.0 : 1.0};
+    turned.arc.turn_rad = std::abs(turn_rad);
+    return turned;
+}
 
 double ring_count(const Pocket& pocket) {
     return pass_count(pocket) * rings_of_pass(pocket);
@@ -113,6 +128,10 @@ double stud_ring_count(const Pocket& stud) {
 
 double ring_count(const CurvedSlot& slot) {
     return pass_count(slot.pocket) * (1 + rings_of_slot_pass(slot.pocket));
+}
+
+double ring_count(const Polygon& polygon) {
+    return pass_count(polygon.stud) * rings_of_polygon_pass(polygon);
 }
 
 // A slot as wide as the tool is a line there and back.
@@ -218,6 +237,44 @@ Result<void> mill_stud(const Pocket& stud, Vec3 from, const PocketMove& go) {
         if (auto done = mill.to(mill.at(0, -beside, depths.back), {}); !done) return done;
     }
     return {};
+}
+
+// Each ring is the polygon within whose corners a round one turns. The tool goes down beside the blank,
+// before the middle of the first side.
+Result<void> mill_polygon(const Polygon& polygon, Vec3 from, const PocketMove& go) {
+    const Pocket& stud = polygon.stud;
+    const PocketDepths& depths = stud.depths;
+    const double passes = pass_count(stud), rings = rings_of_polygon_pass(polygon), step = step_of(stud);
+    const double inner = stud.radius + stud.allowance, turn = math::kTwoPi / polygon.sides;
+    const double corner = std::min(stud.corner, stud.half_width);
+    const double half_side = (stud.half_width - corner) * math::tan(turn / 2);
+    const double way = stud.clockwise ? -1 : 1;
+    const double beside = std::max(stud.blank_half_width, stud.half_width) + 2 * stud.radius;
+    Mill mill(stud, from, go);
+    const auto on_side = [&](int side, double out, double along, double z) {
+        double sine = 0, cosine = 0;
+        math::sincos(way * side * turn, sine, cosine);
+        return mill.at(cosine * out - way * sine * along, sine * out + way * cosine * along, z);
+    };
+    auto done = mill.to({from.x, from.y, depths.back}, {});
+    for (double pass = 1; done && pass <= passes; ++pass) {
+        const double z = depths.top - (depths.top - depths.bottom) * pass / passes;
+        done = mill.to(on_side(0, beside, 0, mill.now().z), {});
+        if (done) done = mill.to(on_side(0, beside, 0, z), stud.plunge);
+        for (double ring = rings - 1; done && ring >= 0; --ring) {
+            const double round = corner + inner + ring * step, out = stud.half_width - corner + round;
+            done = mill.to(on_side(0, out, 0, z), stud.feed);
+            for (int side = 0; done && side < polygon.sides; ++side) {
+                done = mill.to(on_side(side, out, half_side, z), stud.feed);
+                if (done)
+                    done = mill.turn(on_side(side, stud.half_width - corner, half_side, z), way * turn, z);
+            }
+            if (done) done = mill.to(on_side(0, out, 0, z), stud.feed);
+        }
+        if (done) done = mill.to(on_side(0, beside, 0, z), stud.feed);
+        if (done) done = mill.to(on_side(0, beside, 0, depths.back), {});
+    }
+    return done;
 }
 
 }  // namespace tribo::readers::control

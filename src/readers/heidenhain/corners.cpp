@@ -132,6 +132,11 @@ Result<void> Interpreter::corner(LineReader& in, bool is_chamfer) {
 }
 
 Result<void> Interpreter::add_corner(const Words& words, bool is_chamfer) {
+    if (captured_ && !captured_->steps.empty()) {
+        captured_->steps.back().corner_mm = *(is_chamfer ? words.length : words.radius);
+        captured_->steps.back().is_chamfer = is_chamfer;
+        return {};
+    }
     if (!contour_.is_open()) {
         return path_.refuse(place(words.first_column),
                             std::string(is_chamfer ? "CHF" : "RND") + " without a path function before it",

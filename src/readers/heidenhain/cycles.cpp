@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "readers/heidenhain/interpreter.hpp"
 #include "readers/text/text_lines.hpp"
@@ -11,33 +10,58 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr double kRapid = std::numeric_limits<double>::infinity();  // value of a feed for FMAX
-
-constexpr std::array kLengths{200, 201, 202, 203, 204, 205, 212, 216, 217, 218, 219, 220,
-                              222, 223, 225, 226, 237, 238, 239, 244, 256, 257, 258, 259,
-                              334, 335, 342, 344, 357, 368, 369, 379, 424, 425};
-constexpr std::array kFeeds{206, 207, 208, 253};
+constexpr std::array kLengths{1,   3,   4,   5,   6,   7,   8,   10,  14,  200, 201, 202, 203, 204, 205, 212,
+                              216, 217, 218, 219, 220, 221, 222, 223, 225, 226, 227, 228, 229, 230, 231, 232,
+                              233, 234, 235, 236, 237, 238, 239, 244, 256, 257, 258, 259, 334, 335, 338, 342,
+                              344, 356, 357, 358, 359, 368, 369, 375, 379, 386, 424, 425, 571};
+constexpr std::array kFeeds{11, 12, 19, 206, 207, 208, 209, 253, 254, 385};
 
 // The parameters without which a cycle has no path.
 struct Needs {
     int cycle;
-    std::array<int, 6> q;  // 0: none
+    std::array<int, 7> q;  // 0: none
 };
 constexpr std::array kCycles{
-    Needs{200, {200, 201, 206, 203}},           Needs{201, {200, 201, 206, 203}},
-    Needs{202, {200, 201, 206, 203}},           Needs{203, {200, 201, 206, 203}},
-    Needs{205, {200, 201, 206, 202, 203}},      Needs{206, {200, 201, 206, 203}},
-    Needs{207, {200, 201, 239, 203}},           Needs{208, {200, 201, 206, 203, 334, 335}},
-    Needs{209, {200, 201, 239, 203}},           Needs{220, {216, 217, 244, 245, 247, 241}},
-    Needs{221, {225, 226, 237, 238, 242, 243}}, Needs{240, {200, 206, 203}},
-    Needs{241, {200, 201, 206, 203}},           Needs{251, {200, 201, 206, 203, 218, 219}},
-    Needs{252, {200, 201, 206, 203, 223}},      Needs{253, {200, 201, 206, 203, 218, 219}},
-    Needs{256, {200, 201, 206, 203, 218, 219}}, Needs{257, {200, 201, 206, 203, 223}},
+    Needs{200, {200, 201, 206, 203}},
+    Needs{201, {200, 201, 206, 203}},
+    Needs{202, {200, 201, 206, 203}},
+    Needs{203, {200, 201, 206, 203}},
+    Needs{205, {200, 201, 206, 202, 203}},
+    Needs{206, {200, 201, 206, 203}},
+    Needs{207, {200, 201, 239, 203}},
+    Needs{208, {200, 201, 206, 203, 334, 335}},
+    Needs{209, {200, 201, 239, 203}},
+    Needs{220, {216, 217, 244, 245, 247, 241}},
+    Needs{221, {225, 226, 237, 238, 242, 243}},
+    Needs{240, {200, 206, 203}},
+    Needs{241, {200, 201, 206, 203}},
+    Needs{251, {200, 201, 206, 203, 218, 219}},
+    Needs{252, {200, 201, 206, 203, 223}},
+    Needs{253, {200, 201, 206, 203, 218, 219}},
+    Needs{256, {200, 201, 206, 203, 218, 219}},
+    Needs{257, {200, 201, 206, 203, 223}},
+    Needs{254, {200, 201, 206, 203, 219, 375, 248}},
+    Needs{258, {200, 201, 206, 203, 571, 572}},
+    Needs{210, {200, 201, 207, 203, 218, 219}},
+    Needs{211, {200, 201, 207, 203, 219, 244, 248}},
+    Needs{212, {200, 201, 206, 203, 218, 219}},
+    Needs{213, {200, 201, 206, 203, 218, 219}},
+    Needs{214, {200, 201, 206, 203, 223}},
+    Needs{215, {200, 201, 206, 203, 223}},
+    Needs{230, {225, 226, 227, 218, 219, 240, 207}},
+    Needs{231, {225, 228, 231, 234, 240, 207}},
+    Needs{232, {225, 226, 227, 386, 218, 219, 207}},
+    Needs{233, {227, 386, 218, 219, 207}},
+    Needs{262, {335, 239, 201, 200, 203, 207}},
+    Needs{263, {335, 239, 201, 356, 200, 203, 207}},
+    Needs{264, {335, 239, 201, 356, 206, 203, 207}},
+    Needs{265, {335, 239, 201, 200, 203, 207}},
+    Needs{267, {335, 239, 201, 200, 203, 207}},
 };
 
-// Cycles without a path of their own: orientation, tolerance, the contours and data of contour cycles, load.
+// Cycles without a path of their own: orientation, tolerance, load.
 bool is_silent(int cycle) {
-    return cycle == 13 || cycle == 32 || cycle == 14 || cycle == 20 || cycle == 239;
+    return cycle == 13 || cycle == 32 || cycle == 239;
 }
 
 // The block from its first Q200=... on: the name of a cycle may have any characters.
@@ -123,6 +147,14 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
         }
         case 12:
             return {};
+        case 14:
+            return part == 0 ? Result<void>{} : choose_contours(in);
+        case 20:
+        case 22:
+        case 23:
+        case 24:
+        case 25:
+            return define_contour_cycle(in, number);
         case 247: {
             Cycle unused;
             if (path_.first(kDatum)) {
@@ -194,13 +226,15 @@ Result<void> Interpreter::define_q_cycle(LineReader& in, int number) {
 }
 
 Result<void> Interpreter::check_cycle(const Cycle& cycle) const {
+    if (is_thread(cycle.number) || is_face(cycle.number)) return {};  // checked where they run
     const bool by_diameter = cycle.number == 240 && cycle.at(343) != 0;
     if (by_diameter ? cycle.at(344) == 0 : !(cycle.at(201) < 0)) {
         return path_.refuse(cycle.place,
                             by_diameter ? "the diameter Q344 is zero" : "the depth Q201 is not below zero",
                             by_diameter ? "write the diameter" : "write the depth with a minus sign");
     }
-    const bool has_feed = cycle.number != 207 && cycle.number != 209;
+    const bool has_feed =
+        cycle.number != 207 && cycle.number != 209 && cycle.number != 210 && cycle.number != 211;
     if (cycle.at(200) < 0 || cycle.at(202) < 0 || (has_feed && !(cycle.at(206) > 0))) {
         return path_.refuse(cycle.place, "Q200, Q202 or Q206 is out of range",
                             "give clearance and infeed without a sign and a feed above 0");
@@ -259,6 +293,7 @@ Result<void> Interpreter::run_cycle(Place where) {
     if (cycle_.number == 0) {
         return path_.refuse(where, "a cycle is called, but none is defined", "write CYCL DEF before it");
     }
+    if (captured_) return path_.refuse(where, "a cycle is called within a contour", "call it behind LBL 0");
     if (cycle_.number == 12) return call_program(called_program_);
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
@@ -271,6 +306,9 @@ Result<void> Interpreter::run_cycle(Place where) {
         return path_.refuse(where, "a cycle in a frame with a scale", "end the scale before it");
     }
     if (is_pocket(cycle_.number)) return mill_pocket_cycle();
+    if (is_thread(cycle_.number)) return mill_thread();
+    if (is_face(cycle_.number)) return mill_face();
+    if (is_contour_cycle(cycle_.number)) return mill_contour_cycle();
     switch (cycle_.number) {
         case 1:
         case 2:

@@ -3,7 +3,6 @@
 // Cycles.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/math.hpp"
 #include "readers/heidenhain/interpreter.hpp"
@@ -11,8 +10,6 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr double kRapid = std::numeric_limits<double>::infinity();  // value of a feed for FMAX
-constexpr double kFastFeed = 99'999;                                // value of a retraction feed for FMAX
 constexpr double kChipBreakMm = 0.2;
 constexpr int kMostInfeeds = 100'000;
 constexpr double kSpotAngleDeg = 90;

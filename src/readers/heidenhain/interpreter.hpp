@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -10,7 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "readers/control/area_milling.hpp"
 #include "readers/control/contour.hpp"
+#include "readers/control/face.hpp"
+#include "readers/control/helix.hpp"
 #include "readers/control/path.hpp"
 #include "readers/control/pocket.hpp"
 #include "readers/control/run_limit.hpp"
@@ -51,9 +55,15 @@ enum Note {
     kCirclePlane,
     kPoleOfBefore,
     kPocketWay,
+    kThreadWay,
+    kFaceWay,
+    kProjection,
     kFreeChoice,
     kFreeCircle,
 };
+
+// A feed for FMAX, and the least value of one that old programs write for it.
+inline constexpr double kRapid = std::numeric_limits<double>::infinity(), kFastFeed = 99'999;
 
 // Keys of Cycle::q beside the Q numbers: the feed of a line .n of the cycles 4 and 5, and their direction.
 inline constexpr int kFeedOfPart = 10'000, kTurn = 20'000;
@@ -157,7 +167,10 @@ class Interpreter {
     void assume_start();
     Result<bool> has_start(const Words& words, bool polar);
     // The programmed position in the frame: with radius compensation that of the contour.
-    Vec3 here() const { return contour_.programmed().value_or(path_.tip()); }
+    Vec3 here() const {
+        if (captured_ && !captured_->steps.empty()) return captured_->steps.back().to;
+        return contour_.programmed().value_or(path_.tip());
+    }
     ContourWords contour_words(bool rapid) const;
 
     // Free contours (free_blocks.cpp)
@@ -183,11 +196,14 @@ class Interpreter {
     Result<void> transform(LineReader& in);
     Result<void> plane(LineReader& in);
     Result<void> working_plane(LineReader& in);
-    Result<void> tilt(motion::WorkFrame turned, bool resets, bool keeps_tip, int column);
+    Result<void> tilt(motion::WorkFrame turned, bool resets, bool keeps_tip, int column,
+                      const std::optional<Vec3>& to_rad = {});
+    Result<void> tilt_by_axes(const std::vector<Item>& items, bool keeps_tip, int column);
+    void note_projection();
     Result<void> machine_function(LineReader& in);
     void set_frame();
 
-    // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp)
+    // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp, thread_milling.cpp, faces.cpp)
     Result<void> define_cycle(LineReader& in);
     Result<void> define_q_cycle(LineReader& in, int number);
     Result<void> define_old_cycle(LineReader& in, int number, int part);
@@ -208,6 +224,41 @@ class Interpreter {
     Result<control::Pocket> pocket_of_cycle();
     Vec3 middle_of(const control::Pocket& pocket) const;
     Result<void> mill_pocket_cycle();
+    Result<void> read_polygon(control::Pocket& stud) const;
+    Result<void> mill_curved_slots(const control::Pocket& pocket);
+    control::PocketMove mover();
+    static bool is_thread(int number);
+    std::optional<double> cycle_feed(int parameter) const;
+    Result<control::Helix> thread_of_cycle();
+    Result<void> mill_thread();
+    Result<void> mill_turns(control::Helix helix);
+    Result<void> sink_to_depth(double z);
+    Result<void> drill_before_thread();
+    Result<void> sink_front(control::Helix circle);
+    static bool is_face(int number);
+    Vec3 corner_of_face(double length, double width) const;
+    Result<control::Face> face_of_cycle(double radius);
+    control::Face old_face_of_cycle(double radius) const;
+    Result<void> mill_face();
+    Result<void> mill_ruled_face(double diameter);
+    // Contours in subprograms that cycles mill (contour_cycles.cpp)
+    struct Captured {
+        std::vector<control::ContourStep> steps;
+        int side = 0;  // of RL and RR
+    };
+    static bool is_contour_cycle(int number);
+    Result<void> choose_contours(LineReader& in);
+    Result<void> define_contour_cycle(LineReader& in, int number);
+    Result<Captured> capture(const std::string& label);
+    void keep_step(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc);
+    Result<control::Ring> elements_of(const Captured& contour);
+    double contour_word(int parameter) const;
+    Result<double> contour_feed(int parameter);
+    control::PocketDepths contour_depths() const;
+    Result<void> mill_contour_cycle();
+    Result<void> mill_contour_pocket(double radius);
+    Result<void> follow_contour();
+    Result<void> follow_contour_at(const control::Ring& elements, int side, double radius, double z);
     Result<void> return_from(double surface, double feed_mm_per_min);
     Result<double> cutter_radius(Place place);
     Result<void> define_pattern(LineReader& in);
@@ -273,9 +324,13 @@ class Interpreter {
     Vec3 scale_{1, 1, 1};           // CYCL DEF 11 and 26
     Vec3 scale_centre_mm_;
     Cycle cycle_;
-    std::string called_program_;            // CYCL DEF 12
-    std::vector<Vec3> pattern_;             // PATTERN DEF, in the frame; z adds to the surface
-    bool cycle_at_every_position_ = false;  // M89
+    std::string called_program_;               // CYCL DEF 12
+    std::vector<Vec3> pattern_;                // PATTERN DEF, in the frame; z adds to the surface
+    bool cycle_at_every_position_ = false;     // M89
+    std::vector<std::string> contour_labels_;  // CYCL DEF 14
+    Cycle contour_data_;                       // CYCL DEF 20
+    // The contour that is being read; its blocks do not move the tool.
+    std::optional<Captured> captured_;
 
     // The free contour whose blocks wait until it is known.
     struct FreeRun {

@@ -175,6 +175,10 @@ Result<void> Interpreter::go(bool rapid, Vec3 to, const std::optional<motion::Ar
 Result<void> Interpreter::travel(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc,
                                  Vec3 to_rad) {
     if (auto done = apply_feed(words); !done) return done;
+    if (captured_) {
+        keep_step(words, to, arc);
+        return {};
+    }
     if (words.machine_position) {
         if (auto done = choose_side(words); !done) return done;
         if (auto done = close_contour(); !done) return done;

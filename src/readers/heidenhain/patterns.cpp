@@ -2,7 +2,6 @@
 // Patterns of points at which a cycle runs: PATTERN DEF, cycles 220 and 221.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/math.hpp"
 #include "readers/heidenhain/interpreter.hpp"
@@ -10,7 +9,6 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr double kRapid = std::numeric_limits<double>::infinity();
 constexpr double kMostPoints = 10'000;
 
 }  // namespace

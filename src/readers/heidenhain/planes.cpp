@@ -19,12 +19,47 @@ motion::WorkFrame spatial_frame(double a, double b, double c) {
         .turned({1, 0, 0}, a * math::kRadPerDeg);
 }
 
+// The frame whose x runs along `x` as far as that lies in the plane, normal to `z`; none if they span none.
+std::optional<motion::WorkFrame> frame_along(Vec3 x, Vec3 z) {
+    if (!(length(z) > 1e-6)) return std::nullopt;
+    motion::WorkFrame frame;
+    frame.z = normalized(z);
+    const Vec3 along = x - dot(x, frame.z) * frame.z;
+    if (!(length(along) > 1e-6)) return std::nullopt;
+    frame.x = normalized(along);
+    frame.y = cross(frame.z, frame.x);
+    return frame;
+}
+
+// The value of a word of a block; 0 where it is missing.
+double value_of(const std::vector<Item>& items, std::string_view name) {
+    for (const Item& item : items) {
+        if (item.name == name) return item.value.value_or(0);
+    }
+    return 0;
+}
+
+// P1X+0 P1Y+0 ..: a word P, its number, a word X.
+std::array<Vec3, 3> three_points(const std::vector<Item>& items) {
+    std::array<Vec3, 3> points;
+    for (std::size_t i = 0; i + 1 < items.size(); ++i) {
+        if (items[i].name != "P" || !items[i].value) continue;
+        const double number = *items[i].value;
+        const std::size_t axis =
+            items[i + 1].name.size() == 1 ? std::string_view("XYZ").find(items[i + 1].name[0]) : 3;
+        if (number < 1 || number > 3 || axis > 2) continue;
+        points[static_cast<std::size_t>(number) - 1][static_cast<int>(axis)] = items[i + 1].value.value_or(0);
+    }
+    return points;
+}
+
 }  // namespace
 
-// PLANE SPATIAL, EULER, VECTOR and RELATIV: the plane of the following blocks, with the tool normal to it.
+// PLANE SPATIAL, EULER, VECTOR, RELATIV, PROJECTED, POINTS and AXIAL: the plane of the following blocks, with
+// the tool normal to it.
 Result<void> Interpreter::plane(LineReader& in) {
     const int column = in.column();
-    enum { spatial, euler, vector, relative, reset } kind;
+    enum { spatial, euler, vector, relative, projected, points, axial, reset } kind;
     if (in.take("SPATIAL")) {
         kind = spatial;
     } else if (in.take("EULER")) {
@@ -33,23 +68,25 @@ Result<void> Interpreter::plane(LineReader& in) {
         kind = vector;
     } else if (in.take("RELATIV") || in.take("RELATIVE")) {
         kind = relative;
+    } else if (in.take("PROJECTED")) {
+        kind = projected;
+    } else if (in.take("POINTS")) {
+        kind = points;
+    } else if (in.take("AXIAL") || in.take("AXIALE")) {
+        kind = axial;
     } else if (in.take("RESET")) {
         kind = reset;
     } else {
         return in.refuse(column, "this way to give a plane is not read",
-                         "write PLANE SPATIAL, EULER, VECTOR or RELATIV");
+                         "write PLANE SPATIAL, EULER, PROJECTED, VECTOR, POINTS, RELATIV or AXIAL");
     }
     std::vector<Item> items;
     if (auto done = all_items(in, items); !done) return done;
     const auto has = [&](std::string_view name) {
         return std::any_of(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
     };
-    const auto value = [&](std::string_view name) {
-        for (const Item& item : items) {
-            if (item.name == name) return item.value.value_or(0);
-        }
-        return 0.0;
-    };
+    if (kind == axial) return tilt_by_axes(items, has("MOVE"), column);
+    const auto value = [&](std::string_view name) { return value_of(items, name); };
     const auto rad = [&](std::string_view name) { return value(name) * math::kRadPerDeg; };
     motion::WorkFrame turned;
     if (kind == spatial) {
@@ -61,21 +98,73 @@ Result<void> Interpreter::plane(LineReader& in) {
         turned = turned.turned({0, 0, 1}, rad("EULPR"))
                      .turned({1, 0, 0}, rad("EULNU"))
                      .turned({0, 0, 1}, rad("EULROT"));
-    } else if (kind == vector) {
-        const Vec3 base{value("BX"), value("BY"), value("BZ")}, normal{value("NX"), value("NY"), value("NZ")};
-        turned.z = normalized(normal);
-        const Vec3 x = base - dot(base, turned.z) * turned.z;
-        if (!(length(normal) > 1e-6) || !(length(x) > 1e-6)) {
-            return in.refuse(column, "the vectors of the plane do not span it", "correct BX BY BZ, NX NY NZ");
+    } else if (kind != reset) {
+        Vec3 x{value("BX"), value("BY"), value("BZ")}, z{value("NX"), value("NY"), value("NZ")};
+        if (kind == projected) {
+            x = turned.turned({0, 1, 0}, rad("PROPR")).x;
+            z = cross(x, turned.turned({1, 0, 0}, rad("PROMIN")).y);
+            note_projection();
+        } else if (kind == points) {
+            const auto [first, second, third] = three_points(items);
+            x = second - first;
+            z = cross(x, third - first);
         }
-        turned.x = normalized(x);
-        turned.y = cross(turned.z, turned.x);
+        const auto found = frame_along(x, z);
+        if (!found) {
+            return in.refuse(column, "these words do not span a plane",
+                             "correct the vectors, points or angles of PLANE");
+        }
+        turned = kind == projected ? found->turned({0, 0, 1}, rad("ROT") + rad("PROROT")) : *found;
     }
     return tilt(turned, kind == reset, has("MOVE"), column);
 }
 
+void Interpreter::note_projection() {
+    if (!path_.first(kProjection)) return;
+    path_.warn(line_.number,
+               "PLANE PROJECTED: X turned about Y by PROPR and Y turned about X by PROMIN are taken as the "
+               "directions of the plane");
+}
+
+// PLANE AXIAL B+45: the rotary axes stand there; the plane is normal to the tool, and its x and y are those
+// of the machine.
+Result<void> Interpreter::tilt_by_axes(const std::vector<Item>& items, bool keeps_tip, int column) {
+    Vec3 to_rad = path_.rotary_rad();
+    bool turns = false;
+    for (const Item& item : items) {
+        const bool adds = item.name.size() == 2 && item.name[0] == 'I';
+        const std::size_t k = item.name.size() == 1 || adds ? std::string_view("ABC").find(item.name.back())
+                                                            : std::string_view::npos;
+        if (k > 2 || !item.value) continue;
+        if (auto good = path_.in_range(kLimits.rotary_angle, *item.value, place(item.column)); !good)
+            return good;
+        if (path_.machine && !path_.machine->has_axis(item.name.back())) {
+            if (*item.value == 0) continue;
+            return path_.refuse(
+                place(item.column),
+                "the machine " + path_.machine->machine().name + " has no axis " + item.name.back(),
+                "name the machine that the program is written for");
+        }
+        turns = turns || *item.value != 0;
+        const int axis = static_cast<int>(k);
+        to_rad[axis] = *item.value * math::kRadPerDeg + (adds ? to_rad[axis] : 0);
+    }
+    if (!path_.machine) {
+        if (!turns) return tilt({}, false, keeps_tip, column);
+        return path_.refuse(place(column), "PLANE AXIAL turns the axes of a machine, and none is named",
+                            "name the machine (--machine), or write PLANE SPATIAL");
+    }
+    const motion::Kinematics& kinematics = path_.machine->kinematics();
+    motion::WorkFrame turned;
+    turned.x = kinematics.direction({1, 0, 0}, to_rad);
+    turned.y = kinematics.direction({0, 1, 0}, to_rad);
+    turned.z = kinematics.direction({0, 0, 1}, to_rad);
+    return tilt(turned, false, keeps_tip, column, to_rad);
+}
+
 // Makes the plane that of the following blocks. Its frame has no place yet.
-Result<void> Interpreter::tilt(motion::WorkFrame turned, bool resets, bool keeps_tip, int column) {
+Result<void> Interpreter::tilt(motion::WorkFrame turned, bool resets, bool keeps_tip, int column,
+                               const std::optional<Vec3>& to_rad) {
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
     if (!plane_.is_tilted()) untilted_shift_mm_ = shift_mm_;
@@ -85,7 +174,7 @@ Result<void> Interpreter::tilt(motion::WorkFrame turned, bool resets, bool keeps
     const motion::WorkFrame frame =
         plane_.shifted(shift_mm_).turned({0, 0, 1}, rotation_deg_ * math::kRadPerDeg);
     pole_.reset();
-    if (!path_.tilt(frame, keeps_tip, line_.number)) {
+    if (!path_.tilt(frame, keeps_tip, line_.number, to_rad)) {
         return path_.refuse(place(column),
                             "the machine " + path_.machine->machine().name + " cannot turn its tool there",
                             "name the machine that the program is written for");

@@ -68,6 +68,9 @@ Result<void> Interpreter::apply_codes(Words& words) {
     if (words.tip_control) {
         if (auto done = switch_tip_control(*words.tip_control); !done) return done;
     }
+    if (words.cylinder || words.is_polar) {
+        if (auto done = transform_kinematics(words); !done) return done;
+    }
     return apply_feed(words);
 }
 

@@ -34,21 +34,24 @@ control::ContourEndShape end_shape(int kind, double size_mm, Vec3 point, const c
 
 }  // namespace
 
-// CYCLE62(NAME, TYPE, LAB1, LAB2): the contour of the milling cycle that follows.
+// CYCLE62(NAME, TYPE, LAB1, LAB2): a contour of the milling cycle that follows; several add up.
 Result<void> Interpreter::choose_contour(const Call& call) {
+    if (contours_are_used_) chosen_contours_.clear();
+    contours_are_used_ = false;
     const int kind = digit_of(call.at(1), 1);
-    chosen_contour_ = {kind == 2 ? "" : call.text(0), "", ""};
+    ContourName chosen{kind == 2 ? "" : call.text(0), "", ""};
     if (kind >= 2) {
-        chosen_contour_.begin = in_upper_case(call.text(2));
-        chosen_contour_.end = in_upper_case(call.text(3));
+        chosen.begin = in_upper_case(call.text(2));
+        chosen.end = in_upper_case(call.text(3));
     }
+    chosen_contours_.push_back(chosen);
     return {};
 }
 
 // The contour of a name: a program, two labels with a colon between them, or what the control's own editor
 // writes behind the program between E_LAB_A_NAME and E_LAB_E_NAME.
 Interpreter::ContourName Interpreter::contour_named(const std::string& text) const {
-    if (text.empty()) return chosen_contour_;
+    if (text.empty()) return chosen_contours_.empty() ? ContourName{} : chosen_contours_.back();
     const std::size_t colon = text.find(':');
     if (colon != std::string::npos) {
         return {"", in_upper_case(std::string(trimmed(text.substr(0, colon)))),
@@ -127,6 +130,7 @@ Result<void> Interpreter::run_between(const std::string& first, const std::strin
 // along the contour, depth by depth, with lines or circles to it and from it in the plane.
 Result<void> Interpreter::mill_contour(const Call& named) {
     const Place where{named.line, named.column};
+    contours_are_used_ = true;
     Call call = named;
     if (!call.given.empty()) call.given.erase(call.given.begin());
     const auto ready = prepare_cycle(call);
@@ -218,13 +222,7 @@ Result<void> Interpreter::run_contour_pass(const ContourPass& pass, const Depths
         contour_.open(to_plane(path_.tip()), pass.side, pass.radius, false);
         contour_.approach(end_shape(pass.begin_kind, pass.begin_size, at_depth(pass.steps[0].to), words),
                           words);
-        for (std::size_t i = 1; i < pass.steps.size(); ++i) {
-            const ContourStep& step = pass.steps[i];
-            contour_.add(at_depth(step.to), step.arc, words);
-            const bool is_last = i + 1 == pass.steps.size();
-            if (step.corner_mm > 0 && !is_last)
-                contour_.corner(step.corner_mm, step.is_chamfer, words, step.is_own_length);
-        }
+        contour_.add_steps(pass.steps, pass.z, words);
         contour_.depart(end_shape(pass.end_kind, pass.end_size, at_depth(pass.steps.back().to), words),
                         words);
     };

@@ -20,8 +20,9 @@ constexpr std::string_view kPlain = "let the CAM system write the path with G0 t
 // Names of cycles that are not read, by their beginnings.
 constexpr Refused kRefused[] = {
     {"CYCLE60", "engraving, of letters that the control has", kPlain},
-    {"CYCLE63", "a contour that the control mills by itself", kPlain},
-    {"CYCLE64", "a contour that the control mills by itself", kPlain},
+    {"CYCLE64", "holes that the control places in a contour", "write CYCLE83 with MCALL at their places"},
+    {"CYCLE78", "a thread with its hole", "write CYCLE83, and CYCLE70 for the thread"},
+    {"CYCLE899", "a trochoidal slot that the control lays", kPlain},
     {"CYCLE93", "a cycle of a lathe", "only milling is read"},
     {"CYCLE94", "a cycle of a lathe", "only milling is read"},
     {"CYCLE95", "a cycle of a lathe", "only milling is read"},
@@ -47,11 +48,12 @@ Result<bool> Interpreter::run_cycle(const Call& call) {
         return *ready ? ran(drill(call)) : Result<bool>(true);
     }
     if (name == "CYCLE62") return ran(choose_contour(call));
-    if (captured_ && (is_milling_cycle(name) || name == "CYCLE72")) {
+    if (captured_ && (is_milling_cycle(name) || name == "CYCLE72" || name == "CYCLE63")) {
         return path_.refuse({call.line, call.column}, name + " within a contour",
                             "write it behind the contour");
     }
     if (name == "CYCLE72") return ran(mill_contour(call));
+    if (name == "CYCLE63") return ran(mill_contour_pocket(call));
     if (is_milling_cycle(name)) return ran(run_milling_cycle(call));
     if (name == "HOLES1" || name == "HOLES2" || name == "CYCLE801" || name == "CYCLE802") {
         return ran(run_pattern(call));

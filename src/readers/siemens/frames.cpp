@@ -9,13 +9,6 @@ namespace tribo::readers::siemens {
 namespace {
 
 constexpr Range kScale{1e-3, 1e3};
-constexpr std::string_view kAxes = "XYZ";
-
-// `inner`, given in the coordinates of `outer`.
-motion::WorkFrame joined(const motion::WorkFrame& outer, const motion::WorkFrame& inner) {
-    return {outer.in_stock(inner.origin_mm), outer.direction_in_stock(inner.x),
-            outer.direction_in_stock(inner.y), outer.direction_in_stock(inner.z)};
-}
 
 Vec3 unit(int axis) {
     Vec3 direction;
@@ -23,7 +16,13 @@ Vec3 unit(int axis) {
     return direction;
 }
 
-// The angles of ROT turn about z, then about the new y, then about the new x.
+}  // namespace
+
+motion::WorkFrame joined(const motion::WorkFrame& outer, const motion::WorkFrame& inner) {
+    return {outer.in_stock(inner.origin_mm), outer.direction_in_stock(inner.x),
+            outer.direction_in_stock(inner.y), outer.direction_in_stock(inner.z)};
+}
+
 motion::WorkFrame turned_by(motion::WorkFrame frame, const Vec3& rad) {
     for (const int k : {2, 1, 0}) {
         if (rad[k] != 0) frame = frame.turned(unit(k), rad[k]);
@@ -31,11 +30,13 @@ motion::WorkFrame turned_by(motion::WorkFrame frame, const Vec3& rad) {
     return frame;
 }
 
-}  // namespace
-
 motion::WorkFrame Interpreter::settable_frame() const {
     const auto found = offsets_.find(work_offset_);
     return found == offsets_.end() ? motion::WorkFrame{} : found->second;
+}
+
+motion::WorkFrame Interpreter::outer_frame() const {
+    return joined(base_frame_, settable_frame());
 }
 
 void Interpreter::set_work_offset(int code) {
@@ -52,7 +53,7 @@ void Interpreter::set_work_offset(int code) {
 Result<void> Interpreter::set_frame(int line) {
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
-    const motion::WorkFrame frame = joined(joined(settable_frame(), swivelled_), turned_);
+    const motion::WorkFrame frame = joined(joined(outer_frame(), swivelled_), turned_);
     const bool turns = frame.x != path_.frame.x || frame.y != path_.frame.y || frame.z != path_.frame.z;
     const bool is_partly_known =
         !path_.knows_tip() &&
@@ -142,6 +143,7 @@ Result<void> Interpreter::swivel(const Call& call) {
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
     const bool resets = call.given.size() < 4 && !call.has(3);
+    if (path_.rolled()) return path_.refuse(where, "CYCLE800 on a cylinder", "write TRAFOOF before it");
     const bool adds = static_cast<long long>(call.at(2)) % 10 == 1;
     const int mode = static_cast<int>(std::clamp(call.at(3), 0.0, 255.0));
     Vec3 before, after, angle;
@@ -186,7 +188,7 @@ Result<void> Interpreter::swivel(const Call& call) {
     pole_.reset();
     tangent_ = {};
     const bool retracts = !resets && call.at(0) >= 1;
-    if (!path_.tilt(joined(settable_frame(), swivelled_), false, line_number())) {
+    if (!path_.tilt(joined(outer_frame(), swivelled_), false, line_number())) {
         return path_.refuse(where,
                             "the machine " + path_.machine->machine().name + " cannot turn its tool there",
                             "name the machine that the program is written for");
@@ -195,68 +197,6 @@ Result<void> Interpreter::swivel(const Call& call) {
         path_.put(path_.tip(), {path_.known(0), path_.known(1), Known::lost}, line_number());
     }
     return {};
-}
-
-// $P_UIFR[1]=CTRANS(X,1,Y,2) and $P_UIFR[1,X,TR]=1: the work offsets G54, G55 ... of the program itself.
-Result<void> Interpreter::place_offset(const std::vector<Value>& index, Cursor& in) {
-    const std::size_t at = in.at;
-    const double* given = index.empty() ? nullptr : std::get_if<double>(&index[0]);
-    if (given == nullptr || !(*given >= 0 && *given <= 99)) {
-        return in.refuse(at, "$P_UIFR without the number of a work offset", "write $P_UIFR[1] for G54");
-    }
-    const int number = static_cast<int>(*given);
-    const int code = number == 0 ? 500 : number <= 4 ? 53 + number : 500 + number;
-    motion::WorkFrame& frame = offsets_[code];
-    if (index.size() == 1) {
-        const auto found = frame_formula(in);
-        if (!found) return std::unexpected(found.error());
-        frame = *found;
-    } else {
-        const auto value = Formula(in, variables_, *this).number();
-        if (!value) return std::unexpected(value.error());
-        const std::string axis = text_of(index[1]), part = index.size() > 2 ? text_of(index[2]) : "TR";
-        const std::size_t k = axis.size() == 1 ? kAxes.find(axis[0]) : std::string_view::npos;
-        if (k > 2 || (part != "TR" && part != "FI" && *value != 0)) {
-            if (*value == 0) return {};
-            return in.refuse(at, "this part of a work offset is not read", "write TR of X, Y or Z");
-        }
-        const double mm = *value * unit_mm_;
-        if (auto good = path_.in_range(kLimits.coordinate, mm, place(static_cast<int>(at) + 1)); !good)
-            return good;
-        if (part == "TR") frame.origin_mm[static_cast<int>(k)] = mm;
-    }
-    return code == work_offset_ ? set_frame(line_number()) : Result<void>{};
-}
-
-// CTRANS(X,1,Y,2):CROT(Z,30)
-Result<motion::WorkFrame> Interpreter::frame_formula(Cursor& in) {
-    motion::WorkFrame frame;
-    for (;;) {
-        in.skip_blanks();
-        const std::size_t at = in.at;
-        const std::string name = name_at(in);
-        in.at += name.size();
-        const auto call = call_at(in, name, at);
-        if (!call) return std::unexpected(call.error());
-        if (name != "CTRANS" && name != "CROT") {
-            return in.refuse(at, "the frame '" + name.substr(0, 20) + "' is not read",
-                             "write CTRANS and CROT");
-        }
-        Vec3 values;
-        for (std::size_t i = 0; i + 1 < call->given.size(); i += 2) {
-            const std::string axis = call->text(i);
-            const std::size_t k = axis.size() == 1 ? kAxes.find(axis[0]) : std::string_view::npos;
-            if (k > 2) return in.refuse(at, "a frame along an unknown axis", "write X, Y and Z");
-            values[static_cast<int>(k)] = call->at(i + 1);
-            const Limit& limit = name == "CROT" ? kLimits.rotary_angle : kLimits.coordinate;
-            if (auto good = path_.in_range(limit, call->at(i + 1), place(static_cast<int>(at) + 1)); !good)
-                return std::unexpected(good.error());
-        }
-        frame =
-            name == "CTRANS" ? frame.shifted(values * unit_mm_) : turned_by(frame, values * math::kRadPerDeg);
-        if (in.peek_after_blanks() != ':') return frame;
-        ++in.at;
-    }
 }
 
 }  // namespace tribo::readers::siemens

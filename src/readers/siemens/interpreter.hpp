@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "base/math.hpp"
+#include "readers/control/area_milling.hpp"
 #include "readers/control/contour.hpp"
+#include "readers/control/helix.hpp"
 #include "readers/control/path.hpp"
 #include "readers/control/pocket.hpp"
 #include "readers/control/run_limit.hpp"
@@ -51,6 +53,7 @@ enum Note {
     kPocket,
     kSmoothing,
     kTipControl,
+    kPolar,
 };
 
 inline constexpr int kDeepestCall = 24;          // of calls and repeats within each other
@@ -63,6 +66,11 @@ struct Spline {
     std::optional<double> knot_step;  // PL
     Place place;
 };
+
+// `inner`, given in the coordinates of `outer`.
+motion::WorkFrame joined(const motion::WorkFrame& outer, const motion::WorkFrame& inner);
+// The angles of ROT turn about z, then about the new y, then about the new x.
+motion::WorkFrame turned_by(motion::WorkFrame frame, const Vec3& rad);
 
 class Interpreter : private SystemValues {
   public:
@@ -161,6 +169,7 @@ class Interpreter : private SystemValues {
     Result<void> orient(const Words& words);
     Result<Vec3> rotary_target(const Words& words);
     Result<void> switch_tip_control(bool on);
+    Result<void> transform_kinematics(const Words& words);
     bool is_rapid(const Words& words) const { return motion_ == Motion::rapid || words.positions; }
 
     // Splines (splines.cpp)
@@ -180,13 +189,25 @@ class Interpreter : private SystemValues {
     Result<void> swivel(const Call& call);
     Result<void> set_frame(int line);
     void set_work_offset(int code);
-    Result<void> place_offset(const std::vector<Value>& index, Cursor& in);
-    Result<motion::WorkFrame> frame_formula(Cursor& in);
     motion::WorkFrame settable_frame() const;
+    motion::WorkFrame outer_frame() const;
     Vec3 in_frame(Vec3 programmed) const {
         return {scale_.x * programmed.x, scale_.y * programmed.y, scale_.z * programmed.z};
     }
     Vec3 from_frame(Vec3 p) const { return {p.x / scale_.x, p.y / scale_.y, p.z / scale_.z}; }
+
+    // Frames as values (frame_variables.cpp)
+    bool is_frame(const std::string& name) const;
+    motion::WorkFrame* frame_named(const std::string& name, const std::vector<Value>& index,
+                                   std::size_t& parts);
+    Result<void> assign_frame(const std::string& name, const std::vector<Value>& index, std::size_t at,
+                              Cursor& in);
+    Result<void> set_frame_part(motion::WorkFrame& frame, const std::vector<Value>& index, std::size_t first,
+                                std::size_t at, Cursor& in);
+    Result<motion::WorkFrame> frame_formula(Cursor& in);
+    Result<motion::WorkFrame> frame_value(const std::string& name, std::size_t at, Cursor& in);
+    Result<motion::WorkFrame> frame_by_call(const motion::WorkFrame& frame, const Call& call, std::size_t at,
+                                            Cursor& in);
 
     // Cycles (cycles.cpp, drilling.cpp, pockets.cpp)
     Result<bool> run_cycle(const Call& call);
@@ -205,17 +226,14 @@ class Interpreter : private SystemValues {
     Result<void> run_milling_cycle(const Call& call);
     Result<void> mill_pocket(const Pocket& pocket, Place where);
     Result<void> mill_face(const Call& call);
+    Result<void> mill_polygon(const Call& call);
+    void note_own_way(const std::string& cycle);
     Result<void> mill_curved_slots(const Call& call, const Pocket& pocket, Vec3 centre, double count);
     Result<void> mill_to(Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc);
-    Result<void> mill_round(Vec3 centre, double turn_rad, double z, double feed);
+    control::PocketMove mover();
 
-    // Threads (threads.cpp): a helix between two half circles
-    struct Helix {
-        Vec3 centre;
-        double radius = 0, lead = 0, turns = 0, from_z = 0, to_z = 0, feed = 0;
-        double way = 1;  // -1: clockwise
-        bool is_outside = false;
-    };
+    // Threads (threads.cpp)
+    using Helix = control::Helix;
     Vec3 centre_of(const Call& call, std::size_t at_u, std::size_t at_v) const;
     Result<void> mill_thread(const Call& call);
     Result<void> mill_thread_of_plate(const Call& call);
@@ -225,12 +243,7 @@ class Interpreter : private SystemValues {
     struct ContourName {  // a program, or two labels of it or of the running program
         std::string program, begin, end;
     };
-    struct ContourStep {  // to a point, with the corner behind it; coordinates of the plane
-        Vec3 to;
-        std::optional<motion::Arc> arc;
-        double corner_mm = 0;
-        bool is_chamfer = false, is_own_length = false;
-    };
+    using ContourStep = control::ContourStep;
     struct ContourPass {
         std::vector<ContourStep> steps;
         int side = 0, begin_kind = 1, end_kind = 1;
@@ -243,6 +256,8 @@ class Interpreter : private SystemValues {
     Result<void> run_between(const std::string& first, const std::string& last, const Unit& unit,
                              Place where);
     Result<void> mill_contour(const Call& named);
+    Result<std::optional<control::Ring>> closed_contour(const ContourName& name, const Call& call);
+    Result<void> mill_contour_pocket(const Call& named);
     Result<void> run_contour_pass(const ContourPass& pass, const Depths& depths);
 
     Place place(int column) const { return {static_cast<int>(at_) + 1, column}; }
@@ -305,15 +320,18 @@ class Interpreter : private SystemValues {
 
     std::map<int, motion::WorkFrame> offsets_;  // that the program sets itself, by their G code
     int work_offset_ = 500;
-    motion::WorkFrame swivelled_;               // of CYCLE800, within the work offset
-    motion::WorkFrame turned_;                  // TRANS and ROT, within it
+    motion::WorkFrame base_frame_;                              // $P_BFRAME: without the work offset
+    std::map<std::string, motion::WorkFrame> frame_variables_;  // DEF FRAME
+    motion::WorkFrame swivelled_;                               // of CYCLE800, within the work offset
+    motion::WorkFrame turned_;                                  // TRANS and ROT, within it
     Vec3 scale_{1, 1, 1};                       // SCALE, and MIRROR: negative; along the axes of turned_
     Vec3 target_rad_;                           // of the rotary axes at the end of the block
     bool turns_ = false;                        // the tool or a rotary axis turns in the block
     bool euler_ = true, euler_stated_ = false;  // A2 B2 C2 are Euler angles, not roll, pitch and yaw
     bool is_spatial_ = false;                   // CUT3DC and the like: compensation in space
 
-    ContourName chosen_contour_;  // CYCLE62
+    std::vector<ContourName> chosen_contours_;  // CYCLE62
+    bool contours_are_used_ = false;            // the next CYCLE62 begins anew
     // The contour that is being read; its blocks do not move the tool.
     std::optional<std::vector<ContourStep>> captured_;
     std::optional<Call> modal_;  // MCALL

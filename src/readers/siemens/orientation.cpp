@@ -79,6 +79,10 @@ Result<Vec3> Interpreter::rotary_target(const Words& words) {
             return std::unexpected(good.error());
         const double rad = word->value * math::kRadPerDeg;
         const std::string letter(1, kRotary[static_cast<std::size_t>(k)]);
+        if (path_.machine && path_.rolled() && path_.rolled()->rotary == k) {
+            return path_.refuse(place(word->column), letter + " is turned by TRACYL",
+                                "write its coordinate in the plane, or TRAFOOF before it");
+        }
         const bool adds =
             word->measure == Measure::incremental || (word->measure == Measure::modal && incremental_);
         if (!path_.machine) {
@@ -105,12 +109,52 @@ Result<Vec3> Interpreter::rotary_target(const Words& words) {
     return to;
 }
 
-// TRAORI and TRAFOOF
+// TRAORI and TRAFOOF. Each transformation ends the one before it.
 Result<void> Interpreter::switch_tip_control(bool on) {
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
+    path_.unroll();
     path_.switch_tip_control(on, line_number());
     return {};
+}
+
+// TRACYL(d, n, k): the plane X Y is rolled about the rotary axis of the table. TRANSMIT: X and Y lie in the
+// part, as if nothing turned it; how the machine shares the way between X and C does not change the tip.
+// Sinumerik 840D, Job Planning: Transformations.
+Result<void> Interpreter::transform_kinematics(const Words& words) {
+    if (auto done = switch_tip_control(false); !done) return done;
+    if (words.is_polar) {
+        path_.switch_tip_control(true, line_number());
+        if (path_.first(kPolar)) {
+            path_.warn(line_number(),
+                       "TRANSMIT: X and Y are taken as those of the part; how X and C share the way, and "
+                       "whether C is fast enough near the centre, is not computed");
+        }
+        return {};
+    }
+    const Call& call = *words.cylinder;
+    const Place where{call.line, call.column};
+    const double radius_mm = call.at(0) / 2 * unit_mm_;
+    if (!(radius_mm > 0))
+        return path_.refuse(where, "TRACYL without the diameter of its cylinder", "write TRACYL(40)");
+    if (auto good = path_.in_range(kLimits.coordinate, radius_mm, where); !good) return good;
+    if (call.at(2) != 0) {
+        return path_.refuse(where, "TRACYL with an offset of the groove's wall is not read",
+                            "write the path of the tool's centre, and TRACYL with its diameter alone");
+    }
+    if (path_.frame.is_tilted())
+        return path_.refuse(where, "TRACYL in a tilted plane", "end CYCLE800 before it");
+    if (!path_.machine) {
+        if (!path_.program.has_rotary_words) path_.program.first_rotary_line = line_number();
+        path_.program.has_rotary_words = true;
+        if (passed_over_.insert("TRACYL").second)
+            path_.warn(line_number(), "TRACYL without a machine: its plane is taken as flat");
+    }
+    if (path_.roll(radius_mm, line_number())) return {};
+    return path_.refuse(where,
+                        "the machine " + path_.machine->machine().name +
+                            " has no table that turns about X or Y, as TRACYL needs it",
+                        "name the machine that the program is written for");
 }
 
 }  // namespace tribo::readers::siemens

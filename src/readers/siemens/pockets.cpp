@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "readers/control/face.hpp"
 #include "readers/siemens/interpreter.hpp"
 
 namespace tribo::readers::siemens {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kMostPasses = 10'000;
 constexpr double kSameMm = 1e-6;
+constexpr double kMostSides = 1000;
 constexpr double kUsualStep = 0.8;  // of the tool's diameter, from ring to ring
 
 // The places of the parameters of a pocket or slot.
@@ -40,7 +42,8 @@ constexpr Layout kLayouts[] = {
 }  // namespace
 
 bool Interpreter::is_milling_cycle(const std::string& name) {
-    return name == "CYCLE90" || name == "CYCLE70" || name == "CYCLE71" || name == "CYCLE61" ||
+    return name == "CYCLE90" || name == "CYCLE70" || name == "CYCLE79" || name == "CYCLE71" ||
+           name == "CYCLE61" ||
            std::any_of(std::begin(kLayouts), std::end(kLayouts),
                        [&](const Layout& known) { return known.name == name; });
 }
@@ -63,16 +66,10 @@ Result<void> Interpreter::mill_to(Vec3 to, std::optional<double> feed,
     return done;
 }
 
-// Turns about a centre in the plane by an angle, while the tool goes on to a height.
-Result<void> Interpreter::mill_round(Vec3 centre, double turn_rad, double z, double feed) {
-    const Vec3 from = to_plane(path_.tip());
-    const double c = math::cos(turn_rad), s = math::sin(turn_rad), u = from.x - centre.x,
-                 v = from.y - centre.y;
-    motion::Arc arc;
-    arc.centre_mm = {centre.x, centre.y, from.z};
-    arc.normal = {0, 0, turn_rad < 0 ? -1.0 : 1.0};
-    arc.turn_rad = std::abs(turn_rad);
-    return mill_to({centre.x + c * u - s * v, centre.y + s * u + c * v, z}, feed, arc);
+control::PocketMove Interpreter::mover() {
+    return [this](Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc) {
+        return mill_to(to, feed, arc);
+    };
 }
 
 Result<Interpreter::Depths> Interpreter::depths_of(const Call& call, std::size_t increment,
@@ -116,6 +113,13 @@ Result<double> Interpreter::cycle_feed(const Call& call, std::size_t at) const {
     return feed;
 }
 
+void Interpreter::note_own_way(const std::string& cycle) {
+    if (!path_.first(kPocket)) return;
+    path_.warn(line_number(), "the way of the tool within " + cycle +
+                                  " is the control's own: rings from the inside outwards, and lines there "
+                                  "and back, are taken");
+}
+
 Result<void> Interpreter::run_milling_cycle(const Call& call) {
     const auto ready = prepare_cycle(call);
     if (!ready) return std::unexpected(ready.error());
@@ -128,12 +132,8 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     check_start(false);
     if (call.name == "CYCLE90") return mill_thread(call);
     if (call.name == "CYCLE70") return mill_thread_of_plate(call);
-    if (path_.first(kPocket)) {
-        path_.warn(line_number(),
-                   "the way of the tool within " + call.name +
-                       " is the control's own: rings from the inside outwards, and lines there "
-                       "and back, are taken");
-    }
+    note_own_way(call.name);
+    if (call.name == "CYCLE79") return mill_polygon(call);
     if (call.name == "CYCLE71" || call.name == "CYCLE61") return mill_face(call);
     const Layout& at = *std::find_if(std::begin(kLayouts), std::end(kLayouts),
                                      [&](const Layout& known) { return known.name == call.name; });
@@ -228,12 +228,9 @@ Result<void> Interpreter::mill_curved_slots(const Call& call, const Pocket& pock
     }
     if (control::ring_count(slot) > kMostPasses)
         return path_.refuse(where, "SLOT2 needs more than 10000 rings", "take a larger infeed");
-    const auto go_to = [&](Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc) {
-        return mill_to(to, feed, arc);
-    };
     for (double i = 0; i < count; ++i) {
         slot.pocket.angle_rad = (call.at(11) + i * step_deg) * math::kRadPerDeg;
-        if (auto done = control::mill_slot(slot, to_plane(path_.tip()), go_to); !done) return done;
+        if (auto done = control::mill_slot(slot, to_plane(path_.tip()), mover()); !done) return done;
     }
     return {};
 }
@@ -243,11 +240,54 @@ Result<void> Interpreter::mill_pocket(const Pocket& pocket, Place where) {
     if ((is_stud ? control::stud_ring_count(pocket) : control::ring_count(pocket)) > kMostPasses) {
         return path_.refuse(where, "the pocket needs more than 10000 rings", "take a larger infeed");
     }
-    const auto go_to = [&](Vec3 to, std::optional<double> feed, const std::optional<motion::Arc>& arc) {
-        return mill_to(to, feed, arc);
-    };
     const Vec3 from = to_plane(path_.tip());
-    return is_stud ? control::mill_stud(pocket, from, go_to) : control::mill_pocket(pocket, from, go_to);
+    return is_stud ? control::mill_stud(pocket, from, mover()) : control::mill_pocket(pocket, from, mover());
+}
+
+// CYCLE79(RTP, RFP, SDIS, DP, NUM, SWL, PA, PO, STA, RC, AP1, MIDA, MID, FAL, FALD, FFP1, CDIR, VARI, FS,
+// ZFS, GMODE, DMODE, AMODE): a stud with equal sides; SWL is the width across them.
+Result<void> Interpreter::mill_polygon(const Call& call) {
+    const Place where{call.line, call.column};
+    auto depths = depths_of(call, kNone, 22);
+    if (!depths) return std::unexpected(depths.error());
+    const auto feed = cycle_feed(call, 15);
+    if (!feed) return std::unexpected(feed.error());
+    const auto radius = cutter_radius(where, "CYCLE79");
+    if (!radius) return std::unexpected(radius.error());
+    const double sides = call.at(4), scale = std::abs(scale_[axes()[0]]) * unit_mm_;
+    const int kind = static_cast<int>(std::clamp(call.at(17), 0.0, 1e6));
+    const int mode = static_cast<int>(std::clamp(call.at(22), 0.0, 1e6));
+    if (!(sides >= 3) || !(sides <= kMostSides) || sides != std::floor(sides) || !(call.at(5) > 0)) {
+        return path_.refuse(where, "CYCLE79 has no number of sides from 3 to 1000, or no width",
+                            "correct NUM and SWL");
+    }
+    if (kind % 10 == 5 || kind >= 10 || mode >= 100) {
+        return path_.refuse(where, "CYCLE79 by the length of a side, or with chamfers, is not read",
+                            "write the width across the sides and a radius");
+    }
+    if (auto good = path_.in_range(kLimits.rotary_angle, call.at(8), where); !good) return good;
+    control::Polygon polygon;
+    polygon.sides = static_cast<int>(sides);
+    Pocket& stud = polygon.stud;
+    stud.depths = *depths;
+    stud.centre = centre_of(call, 6, 7);
+    stud.half_length = stud.half_width = call.at(5) / 2 * scale;
+    stud.angle_rad = call.at(8) * math::kRadPerDeg;
+    stud.corner = std::abs(call.at(9)) * scale;
+    stud.blank_half_width = std::abs(call.at(10)) / 2 * scale;
+    stud.radius = *radius;
+    stud.step = ring_step(call, 11, 22);
+    stud.infeed = std::abs(call.at(12)) * scale;
+    stud.along_edge = kind % 10 >= 2;
+    if (!stud.along_edge) {
+        stud.allowance = std::abs(call.at(13)) * scale;
+        stud.depths.bottom += std::abs(call.at(14)) * scale;
+    }
+    stud.clockwise = call.at(16) != 1;
+    stud.feed = stud.plunge = *feed;
+    if (control::ring_count(polygon) > kMostPasses)
+        return path_.refuse(where, "CYCLE79 needs more than 10000 rings", "take a larger infeed");
+    return control::mill_polygon(polygon, to_plane(path_.tip()), mover());
 }
 
 // CYCLE71(RTP, RFP, SDIS, DP, PA, PO, LENG, WID, STA, MID, MIDA, FDP, FALD, FFP1, VARI, FDP1) and
@@ -261,53 +301,28 @@ Result<void> Interpreter::mill_face(const Call& call) {
     if (!feed) return std::unexpected(feed.error());
     const auto radius = cutter_radius(where, call.name.c_str());
     if (!radius) return std::unexpected(radius.error());
-    const auto [u, v, w] = axes();
-    const double scale = scale_[u] * unit_mm_;
+    const double scale = scale_[axes()[0]] * unit_mm_;
     const int kind = static_cast<int>(std::clamp(call.at(is_old ? 14 : 12), 0.0, 99.0));
-    const bool along_v = kind / 10 == 2 || kind / 10 == 4;
-    const double left = kind % 10 == 2 ? 0 : std::abs(call.at(is_old ? 12 : 10)) * scale;
-    const double bottom = depths->bottom + left, height = depths->top - bottom;
-    const double infeed = std::abs(call.at(is_old ? 9 : 8)) * scale;
-    const double passes = infeed > 0 && kind % 10 != 2 ? std::max(1.0, std::ceil(height / infeed - 1e-9)) : 1;
-    const double length = call.at(along_v ? 7 : 6) * scale, width = call.at(along_v ? 6 : 7) * scale;
-    double step = ring_step(call, is_old ? 10 : 9, is_old ? kNone : 15);
-    if (!(step > 0)) step = kUsualStep * 2 * *radius;
-    const double lines = step > 0 ? std::max(1.0, std::ceil(std::abs(width) / step - 1e-9)) : 1;
-    if (!(passes * lines <= kMostPasses) || !(height > 0)) {
-        return path_.refuse(where, call.name + " needs no lines, or more than 10000", "correct its infeeds");
-    }
-    const double over = *radius + (is_old ? std::abs(call.at(15)) * scale : 0);
     const double angle = is_old ? call.at(8) : 0;
     if (auto good = path_.in_range(kLimits.rotary_angle, angle, where); !good) return good;
-    const double c = math::cos(angle * math::kRadPerDeg), s = math::sin(angle * math::kRadPerDeg);
-    const double pu = call.at(4) * scale, pv = call.at(5) * scale;
-    const auto at = [&](double along, double across, double z) {
-        const double x = along_v ? across : along, y = along_v ? along : across;
-        return Vec3{pu + c * x - s * y, pv + s * x + c * y, z};
-    };
-    const double sign = length < 0 ? -1 : 1;
-    double from = -sign * over, to = length + sign * over;
-    const Vec3 now = to_plane(path_.tip());
-    if (auto done = mill_to({now.x, now.y, depths->back}, {}, {}); !done) return done;
-    for (double pass = 1; pass <= passes; ++pass) {
-        const double z = depths->top - height * pass / passes;
-        for (double line = 0; line < lines; ++line) {
-            const double across = width * (line + 0.5) / lines;
-            if (line == 0) {
-                const Vec3 start = at(from, across, depths->back);
-                if (auto done = mill_to({start.x, start.y, to_plane(path_.tip()).z}, {}, {}); !done)
-                    return done;
-                if (auto done = mill_to(at(from, across, z), {}, {}); !done) return done;
-            } else if (auto done = mill_to(at(from, across, z), *feed, {}); !done) {
-                return done;
-            }
-            if (auto done = mill_to(at(to, across, z), *feed, {}); !done) return done;
-            std::swap(from, to);
-        }
-        const Vec3 end = to_plane(path_.tip());
-        if (auto done = mill_to({end.x, end.y, depths->back}, {}, {}); !done) return done;
-    }
-    return {};
+    control::Face face;
+    face.depths = *depths;
+    face.depths.bottom += kind % 10 == 2 ? 0 : std::abs(call.at(is_old ? 12 : 10)) * scale;
+    face.infeed = kind % 10 == 2 ? 0 : std::abs(call.at(is_old ? 9 : 8)) * scale;
+    face.corner = {call.at(4) * scale, call.at(5) * scale, 0};
+    face.length = call.at(6) * scale;
+    face.width = call.at(7) * scale;
+    face.angle_rad = angle * math::kRadPerDeg;
+    face.along_width = kind / 10 == 2 || kind / 10 == 4;
+    face.step = ring_step(call, is_old ? 10 : 9, is_old ? kNone : 15);
+    if (!(face.step > 0)) face.step = kUsualStep * 2 * *radius;
+    face.over = face.start_over = *radius + (is_old ? std::abs(call.at(15)) * scale : 0);
+    face.feed = *feed;
+    face.between = *feed;
+    const double count = control::line_count(face);
+    if (!(count >= 1 && count <= kMostPasses))
+        return path_.refuse(where, call.name + " needs no lines, or more than 10000", "correct its infeeds");
+    return control::mill_face(face, to_plane(path_.tip()), mover());
 }
 
 }  // namespace tribo::readers::siemens

@@ -31,9 +31,11 @@ Variable fresh(Type type, std::size_t count = 1) {
 // DEF REAL A=1, B[2,3], DEF STRING[20] NAME="X"
 Result<void> Interpreter::define(Cursor& in) {
     std::optional<Type> type;
+    bool are_frames = false;
     while (!type) {
         in.skip_blanks();
         const std::string word = name_at(in);
+        are_frames = word == "FRAME";
         if (word.empty()) return in.refuse(in.at, "DEF without a type", "write REAL, INT, BOOL or STRING");
         type = type_of(word);
         in.at += word.size();
@@ -53,8 +55,10 @@ Result<void> Interpreter::define(Cursor& in) {
         }
         if (name.empty()) return in.refuse(at, "DEF without a name", "write the variable's name");
         in.at += name.size();
+        if (are_frames) frame_variables_[name] = {};
         Variable variable = fresh(*type);
         if (in.peek_after_blanks() == '[') {
+            if (are_frames) return in.refuse(at, "an array of frames is not read", "define each by its name");
             ++in.at;
             const auto sizes = Formula(in, variables_, *this).indices();
             if (!sizes) return std::unexpected(sizes.error());
@@ -108,6 +112,7 @@ Result<void> Interpreter::assign(const std::string& name, std::size_t at, Cursor
     if (in.peek_after_blanks() != '=')
         return in.refuse(at, name + " without '='", "write its value behind '='");
     ++in.at;
+    if (frame_variables_.contains(name)) return assign_frame(name, index, at, in);
     Variable* variable = variables_.find(name);
     if (variable == nullptr) {
         const double* given = index.empty() ? nullptr : std::get_if<double>(&index[0]);

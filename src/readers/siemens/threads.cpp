@@ -23,23 +23,9 @@ Vec3 Interpreter::centre_of(const Call& call, std::size_t at_u, std::size_t at_v
     return to_plane(centre);
 }
 
-// A helix about the centre between two heights, between two half circles that touch it: from the middle of a
-// hole, and from beside a bolt.
 Result<void> Interpreter::mill_helix(const Helix& helix) {
-    const Vec3 centre = helix.centre;
-    const double side = helix.is_outside ? -helix.way : helix.way;
-    const double lead = helix.is_outside ? -helix.lead : helix.lead;
-    const Vec3 begin{centre.x + helix.radius - 2 * lead, centre.y, 0};
-    const Vec3 lead_centre{centre.x + helix.radius - lead, centre.y, 0};
-    if (auto done = mill_to({begin.x, begin.y, to_plane(path_.tip()).z}, {}, {}); !done) return done;
-    if (auto done = mill_to({begin.x, begin.y, helix.from_z}, {}, {}); !done) return done;
-    if (auto done = mill_round(lead_centre, side * math::kPi, helix.from_z, helix.feed); !done) return done;
-    if (auto done = mill_round(centre, helix.way * helix.turns * math::kTwoPi, helix.to_z, helix.feed); !done)
-        return done;
-    const Vec3 out = to_plane(path_.tip());
-    const Vec3 out_centre{centre.x + (out.x - centre.x) * (helix.radius - lead) / helix.radius,
-                          centre.y + (out.y - centre.y) * (helix.radius - lead) / helix.radius, 0};
-    return mill_round(out_centre, side * math::kPi, helix.to_z, helix.feed);
+    const auto end = control::mill_helix(helix, to_plane(path_.tip()), mover());
+    return end ? Result<void>{} : std::unexpected(end.error());
 }
 
 // CYCLE90(RTP, RFP, SDIS, DP, DPR, DIATH, KDIAM, PIT, FFR, CDIR, TYPTH, CPA, CPO): a thread, milled from

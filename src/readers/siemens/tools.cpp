@@ -107,10 +107,7 @@ Result<void> Interpreter::assign_system(Cursor& in) {
     }
     if (in.peek_after_blanks() != '=') return in.refuse(at, "$" + name + " without '='", "write its value");
     ++in.at;
-    if (name == "P_UIFR") return place_offset(index, in);
-    if (name.ends_with("FRAME") || name == "P_CHBFR" || name == "P_UBFR") {
-        return in.refuse(at, "the frame $" + name + " is not read", "write $P_UIFR[1], or TRANS and ROT");
-    }
+    if (is_frame(name) || name.ends_with("FRAME")) return assign_frame(name, index, at, in);
     const bool is_tool = name == "TC_DP3" || name == "TC_DP6" || name == "TC_DP7";
     if (!is_tool || index.size() != 2 || whole_at(index, 1) != 1) {
         in.at = in.line.size();

@@ -50,8 +50,6 @@ struct Refused {
 constexpr std::string_view kPlain = "let the CAM system write the path with G0 to G3";
 constexpr std::string_view kFrames = "write TRANS and ROT";
 constexpr Refused kRefused[] = {
-    {"TRANSMIT", "turning a face in polar coordinates", kPlain},
-    {"TRACYL", "a path on a cylinder", kPlain},
     {"TRAANG", "an inclined axis", kPlain},
     {"TRACON", "chained transformations", kPlain},
     {"ORICURVE", "the tool's axis along a second curve", "let the CAM system write A3 B3 C3"},
@@ -256,6 +254,16 @@ Result<bool> Interpreter::read_keyword(Cursor& in, const std::string& name, Word
     }
     if (name == "TRAORI" || name == "TRAFOOF") {
         words.tip_control = name == "TRAORI";
+        return skip_rest();
+    }
+    if (name == "TRACYL") {
+        auto call = call_at(in, name, at);
+        if (!call) return std::unexpected(call.error());
+        words.cylinder = *std::move(call);
+        return true;
+    }
+    if (name == "TRANSMIT") {
+        words.is_polar = true;
         return skip_rest();
     }
     if (name == "RET") {

@@ -81,9 +81,11 @@ struct Words {
     std::vector<Code> g, m;
     std::string frame;  // TRANS, AROT ...; empty: none
     std::optional<bool> tip_control;
-    bool machine_place = false;  // SUPA, G53, G153
-    bool is_home = false;        // G74, G75
-    bool positions = false;      // POS[X]=: a rapid of its own
+    std::optional<Call> cylinder;  // TRACYL
+    bool is_polar = false;         // TRANSMIT
+    bool machine_place = false;    // SUPA, G53, G153
+    bool is_home = false;          // G74, G75
+    bool positions = false;        // POS[X]=: a rapid of its own
     std::optional<Call> call;
     std::optional<long> times;  // P
     int first_column = 1;

@@ -136,7 +136,7 @@ TEST(SiemensLanguage, GathersAllRefusals) {
     GcodeOptions options;
     options.refusals = &refusals;
     const auto program =
-        read_siemens("G71 G0 X0 Y0 Z0\nG33 Z5 K1\nTRACYL(20)\nFOO BAR\nTRACYL(30)\n", options);
+        read_siemens("G71 G0 X0 Y0 Z0\nG33 Z5 K1\nTRAANG(20)\nFOO BAR\nTRAANG(30)\n", options);
     ASSERT_FALSE(program.has_value());
     ASSERT_EQ(refusals.size(), 3u);
     EXPECT_EQ(refusals[0].line, 2);

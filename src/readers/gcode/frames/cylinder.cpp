@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/frames/cylinder.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -11,10 +10,6 @@
 
 namespace tribo::readers::gcode {
 namespace {
-
-// An arc of the unrolled plane becomes lines that keep this close to it, mm.
-constexpr double kChordMm = 1e-3;
-constexpr double kMostChords = 100'000;
 
 // The arc in the unrolled plane, by its radius or its centre; none for a line.
 Result<std::optional<motion::Arc>> unrolled_arc(Command& command, const State& state, Vec3 from, Vec3 to,
@@ -96,9 +91,7 @@ Result<void> feed_on_cylinder(Command& command, State& state, Vec3 target, Outpu
     const Vec3 to{target[linear], end_rad[cylinder.rotary] * cylinder.radius_mm, 0};
     const auto arc = unrolled_arc(command, state, from, to, output);
     if (!arc) return std::unexpected(arc.error());
-    const double radius = *arc ? distance((*arc)->centre_mm, from) : 0;
-    const double step_rad = radius > kChordMm ? 2 * std::sqrt(2 * kChordMm / radius) : math::kPi;
-    const double chords = *arc ? std::clamp(std::ceil((*arc)->turn_rad / step_rad), 1.0, kMostChords) : 1;
+    const double chords = *arc ? chord_count(**arc, from) : 1;
     note_spindle(command, state, output);
     Vec3 before = from;
     for (double i = 1; i <= chords; ++i) {

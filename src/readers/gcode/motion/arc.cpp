@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/motion/arc.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,6 +21,9 @@ struct RadiusTolerance {
     double always_mm, largest_mm, coarse_mm;
 };
 constexpr double kRelativeTolerance = 0.001;
+// Chords stay this close to their arc, mm.
+constexpr double kChordMm = 1e-3;
+constexpr double kMostChords = 100'000;
 
 RadiusTolerance tolerance_for(double unit_mm) {
     // Ends and centre rounded or cut to 0.01 mm or 0.001 inch.
@@ -103,6 +107,12 @@ Result<motion::Arc> arc_of_radius(const ArcEnds& ends, double radius_mm) {
     centre[axes[2]] = ends.start_mm[axes[2]];
     const double minor = 2 * math::atan2(half, apothem);
     return make_arc(ends, centre, radius_mm < 0 ? math::kTwoPi - minor : minor);
+}
+
+double chord_count(const motion::Arc& arc, Vec3 start_mm) {
+    const double radius = distance(arc.centre_mm, start_mm);
+    const double step_rad = radius > kChordMm ? 2 * std::sqrt(2 * kChordMm / radius) : math::kPi;
+    return std::clamp(std::ceil(arc.turn_rad / step_rad), 1.0, kMostChords);
 }
 
 }  // namespace tribo::readers::gcode

@@ -39,6 +39,10 @@ struct ArcEnds {
 // parameter 3410 says, which no program tells.
 Result<motion::Arc> arc_about_centre(const ArcEnds& ends, Vec3 centre_mm, double unit_mm);
 
+// Number of lines that stay within a micrometre of an arc that begins at `start_mm`; for arcs whose plane is
+// rolled about a cylinder.
+double chord_count(const motion::Arc& arc, Vec3 start_mm);
+
 // Returns the arc of a radius, mm: at most half a turn for a positive radius, at least half a turn for a
 // negative one. Half the chord may exceed the radius by 0.005 mm.
 Result<motion::Arc> arc_of_radius(const ArcEnds& ends, double radius_mm);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/motion/contour.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "base/math.hpp"
@@ -43,22 +42,16 @@ double turn_from(Point centre, Point a, Point b, double sign) {
     return std::max(turn, 0.0);
 }
 
-struct Meetings {
-    std::array<Point, 2> points;
-    int count = 0;
-    void add(Point p) { points[static_cast<std::size_t>(count++)] = p; }
-};
-
-Meetings line_line(const Element& a, const Element& b) {
-    Meetings found;
+Crossings line_line(const Element& a, const Element& b) {
+    Crossings found;
     const Point d = a.start_direction(), e = b.start_direction();
     const double sine = cross(d, e);
     if (std::abs(sine) > 1e-12) found.add(a.start + (cross(b.start - a.start, e) / sine) * d);
     return found;
 }
 
-Meetings line_circle(const Element& line, Point centre, double radius) {
-    Meetings found;
+Crossings line_circle(const Element& line, Point centre, double radius) {
+    Crossings found;
     const Point d = line.start_direction();
     const Point foot = line.start + dot(centre - line.start, d) * d;
     const double height = distance(foot, centre);
@@ -69,8 +62,8 @@ Meetings line_circle(const Element& line, Point centre, double radius) {
     return found;
 }
 
-Meetings circle_circle(Point a, double radius_a, Point b, double radius_b) {
-    Meetings found;
+Crossings circle_circle(Point a, double radius_a, Point b, double radius_b) {
+    Crossings found;
     const double apart = distance(a, b);
     if (apart < kSamePointMm) return found;
     const double along = (apart * apart + radius_a * radius_a - radius_b * radius_b) / (2 * apart);
@@ -87,7 +80,7 @@ double radius_of(const Element& arc) {
     return distance(arc.centre, arc.end);
 }
 
-Meetings meetings(const Element& a, const Element& b) {
+Crossings of_curves(const Element& a, const Element& b) {
     if (!a.is_arc() && !b.is_arc()) return line_line(a, b);
     if (!a.is_arc()) return line_circle(a, b.centre, radius_of(b));
     if (!b.is_arc()) return line_circle(b, a.centre, radius_of(a));
@@ -168,10 +161,24 @@ std::optional<Element> offset(const Element& element, double left_mm) {
     return moved;
 }
 
+Crossings crossings(const Element& a, const Element& b) {
+    Crossings common;
+    const Crossings found = of_curves(a, b);
+    const auto is_on = [](const Element& element, Point p) {
+        const double along = element.after_start(p);
+        return along >= -kSamePointMm && along <= element.length() + kSamePointMm;
+    };
+    for (int i = 0; i < found.count; ++i) {
+        const Point p = found.points[static_cast<std::size_t>(i)];
+        if (is_on(a, p) && is_on(b, p)) common.add(p);
+    }
+    return common;
+}
+
 std::optional<Point> meeting(const Element& first, const Element& second) {
     std::optional<Point> best;
     double least = 0;
-    const Meetings found = meetings(first, second);
+    const Crossings found = of_curves(first, second);
     for (int i = 0; i < found.count; ++i) {
         const Point p = found.points[static_cast<std::size_t>(i)];
         const double off_first = first.before_end(p), off_second = second.after_start(p);

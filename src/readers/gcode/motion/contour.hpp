@@ -3,6 +3,7 @@
 // thread, no allocation.
 #pragma once
 
+#include <array>
 #include <optional>
 
 namespace tribo::readers::gcode {
@@ -44,6 +45,14 @@ double turn_between(Point a, Point b);
 // Returns the point where `first` is to end and `second` to begin: of their common points the one that
 // shortens them least; none if they have no common point.
 std::optional<Point> meeting(const Element& first, const Element& second);
+
+// The common points of two elements, but for those that run along each other.
+struct Crossings {
+    std::array<Point, 2> points;
+    int count = 0;
+    void add(Point p) { points[static_cast<std::size_t>(count++)] = p; }
+};
+Crossings crossings(const Element& a, const Element& b);
 
 // Returns the arc about a centre from a point to another, to the left for side > 0.
 Element arc_about(Point centre, Point from, Point to, int side);
