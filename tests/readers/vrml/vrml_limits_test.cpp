@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that crash or hang a widespread reader (Coin 4.0): each must be read or refused within a second of
+// Files that crash or hang a widespread reader (Coin 4.0): each must be read or refused within ten seconds of
 // processor time and a gigabyte of memory, which the system holds us to in a process of its own.
 #include <csignal>
 #include <functional>
@@ -194,7 +194,8 @@ const Trap kTraps[] = {
 [[noreturn]] void read_within_limits(const Trap& trap) {
     const std::string bytes = trap.make();
 #ifndef TRIBO_SANITIZED
-    const rlimit time{1, 1}, memory{rlim_t{1} << 30, rlim_t{1} << 30};
+    // A tenth of that on a machine at rest: what hangs takes minutes.
+    const rlimit time{10, 10}, memory{rlim_t{1} << 30, rlim_t{1} << 30};
     setrlimit(RLIMIT_CPU, &time);
     setrlimit(RLIMIT_AS, &memory);
 #endif
@@ -212,7 +213,7 @@ const Trap kTraps[] = {
     std::_Exit(as_said ? 0 : 1);
 }
 
-TEST(VrmlLimitsDeathTest, FilesThatCrashOrHangOthersCostASecondAtMost) {
+TEST(VrmlLimitsDeathTest, FilesThatCrashOrHangOthersCostSecondsAtMost) {
     for (const Trap& trap : kTraps) {
         SCOPED_TRACE(trap.what);
         EXPECT_EXIT(read_within_limits(trap), testing::ExitedWithCode(0), "");
