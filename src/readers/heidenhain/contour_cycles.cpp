@@ -78,7 +78,7 @@ Result<Interpreter::Captured> Interpreter::capture(const std::string& label) {
     const auto feed = path_.feed_mm_per_min;
     const Vec3 tangent = tangent_;
     const int side = std::exchange(side_, 0);
-    captured_.emplace();
+    captured_ = Captured{};
     auto done = go_to(label, line_.column);
     if (done) {
         calls_.push_back({back, false, unit_mm_});
