@@ -213,5 +213,17 @@ TEST(PartInFourLanguages, FiveAxisSwarf) {
     expect_one_part(feature, length);
 }
 
+// A boring mill: the quill W beside Z. APT knows the tip alone.
+TEST(PartInFourLanguages, AxesBesideXYZ) {
+    const Feature feature{
+        "G0 X0 Y0 Z10\nG0 W-5\nG1 Z-2 F300\nX20 W-6\nG91 U2 W2 Y3\nG90 U0\nW0\nG0 Z10\n",
+        "L X+0 Y+0 Z+10 R0 FMAX\nL W-5 R0 FMAX\nL Z-2 F300\nL X+20 W-6\nL IU+2 IW+2 IY+3\nL U+0\nL W+0\nL "
+        "Z+10 FMAX\n",
+        "G0 X0 Y0 Z10\nG0 W-5\nG1 Z-2 F300\nX20 W-6\nG91 U2 W2 Y3\nG90 U0\nW0\nG0 Z10\nM30\n",
+        "RAPID\nGOTO/0,0,10\nRAPID\nGOTO/0,0,5\nFEDRAT/300,MMPM\nGOTO/0,0,-7\nGOTO/20,0,-8\nGOTO/22,3,-6\n"
+        "GOTO/20,3,-6\nGOTO/20,3,-2\nRAPID\nGOTO/20,3,10\n"};
+    expect_one_part(feature, 12 + std::sqrt(401.0) + std::sqrt(17.0) + 2 + 4);
+}
+
 }  // namespace
 }  // namespace tribo::readers

@@ -12,15 +12,6 @@ constexpr std::string_view kHarmless = "DEHLPQ";
 std::unexpected<Error> refuse_unused(const Command& command, const Word& word, const Output& output) {
     const std::string letter(1, word.letter);
     switch (word.letter) {
-        case 'U':
-        case 'V':
-        case 'W':
-            return output.refuse(
-                command.line(), word.column,
-                letter +
-                    " is a second axis beside X, Y or Z, an increment of a lathe, or the other "
-                    "end of a hot wire: the program does not say which",
-                "let the CAM system write the path with X, Y and Z");
         case 'I':
         case 'J':
         case 'K':

@@ -206,7 +206,7 @@ class ProgramReader {
     // The block goes somewhere: what calls the macro of G66.
     static bool moves(const Block& block) {
         return std::ranges::any_of(block.words,
-                                   [](const Word& word) { return word.letter >= 'X' && word.letter <= 'Z'; });
+                                   [](const Word& word) { return word.letter >= 'U' && word.letter <= 'Z'; });
     }
 
     // Nothing but moves, feeds and modes of numbers may stand between a corner and the move behind it.

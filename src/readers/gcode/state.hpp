@@ -116,6 +116,12 @@ struct RotaryState {
     }
 };
 
+// Axes U V W beside X Y Z (motion/parallel_axes.hpp).
+struct ParallelAxes {
+    Vec3 at_mm;    // how far they have moved the tip
+    Vec3 zero_mm;  // at_mm where their words are 0 (G92)
+};
+
 // A corner that a block asks for at its end, and the move that waits for the next one (motion/corners.hpp).
 struct CornerSize {
     double mm = 0;  // radius, or what a chamfer takes from each line
@@ -213,11 +219,12 @@ struct State {
     std::array<Known, 3> known{Known::unstated, Known::unstated, Known::unstated};
     int lost_line = 0;  // of the last block that lost an axis
     RotaryState rotary;
+    ParallelAxes parallel;
 
     const WorkSystem& active() const { return work[static_cast<std::size_t>(active_work)]; }
     // Zero of the program, in the frame of its axes.
     Vec3 origin_mm() const {
-        const Vec3 origin = tilt ? Vec3{} : turned(active().origin_mm, -active().turn_deg);
+        const Vec3 origin = tilt ? Vec3{} : turned(active().origin_mm + parallel.at_mm, -active().turn_deg);
         return preset_on ? origin + preset_mm : origin;
     }
     // Converts the tip to the axes of the work system in force; the axes before were turned by `before_deg`.
@@ -293,6 +300,7 @@ enum class Note {
     second_tool,
     program_of_machine,
     plane_centre,
+    parallel_axis,
 };
 
 // Receives the moves, warnings and errors of the blocks.

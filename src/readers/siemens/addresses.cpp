@@ -10,7 +10,7 @@
 namespace tribo::readers::siemens {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ", kRotary = "ABC", kCentres = "IJK";
+constexpr std::string_view kAxes = "XYZ", kBeside = "UVW", kRotary = "ABC", kCentres = "IJK";
 
 // Addresses without effect on the path: feeds of single axes and corners, smoothing, speeds, limits.
 constexpr std::string_view kSilent[] = {
@@ -179,6 +179,10 @@ Result<void> Interpreter::take_address(Cursor& in, const std::string& name, Amou
         words.linear[k] = amount;
         return {};
     }
+    if (const std::size_t k = kBeside.find(letter); k < 3 && (is_single || (is_extended && name[1] == '1'))) {
+        words.beside[k] = amount;
+        return {};
+    }
     if (const std::size_t k = kRotary.find(letter); k < 3) {
         if (is_single || (is_extended && name[1] == '1')) {
             words.rotary[k] = amount;
@@ -281,7 +285,6 @@ Result<void> Interpreter::take_address(Cursor& in, const std::string& name, Amou
         return {};
     }
     if (std::find(std::begin(kSilent), std::end(kSilent), name) != std::end(kSilent)) return {};
-    if ((name == "U" || name == "V" || name == "W") && amount.value == 0) return {};
     return in.refuse(at, name.substr(0, 31) + "= is not known", "delete it where it does not move the tool");
 }
 

@@ -79,6 +79,11 @@ Result<void> Interpreter::transform(const Words& words) {
         const double value = kind == "TRANS" ? word->value * unit_mm_ : word->value;
         if (auto good = path_.in_range(limit, value, place(word->column)); !good) return good;
     }
+    for (const auto& word : words.beside) {
+        if (!word || word->value == 0) continue;
+        return path_.refuse(place(word->column), words.frame + " of U, V or W is not read",
+                            "write their coordinates in the blocks");
+    }
     if (words.has_rotary() && kind == "TRANS" && (words.rotary[0] ? words.rotary[0]->value : 0) == 0 &&
         (words.rotary[1] ? words.rotary[1]->value : 0) == 0 &&
         (words.rotary[2] ? words.rotary[2]->value : 0) == 0) {

@@ -31,6 +31,7 @@ Result<void> Interpreter::move(const Words& words) {
     Vec3 to;
     const auto known = find_target(words, to);
     if (!known) return std::unexpected(known.error());
+    if (auto done = move_beside(words); !done) return done;
     if (!*known) {
         path_.set_rotary(target_rad_);
         contour_.leave();
@@ -112,6 +113,30 @@ Result<bool> Interpreter::find_target(const Words& words, Vec3& to) {
     return false;
 }
 
+// U V W: axes beside X Y Z, such as the quill of a boring mill.
+Result<void> Interpreter::move_beside(const Words& words) {
+    for (int k = 0; k < 3; ++k) {
+        const auto& word = words.beside[static_cast<std::size_t>(k)];
+        if (!word) continue;
+        const double from = path_.beside_mm(k);
+        const bool adds =
+            word->measure == Measure::incremental || (word->measure == Measure::modal && incremental_);
+        const double to = word->value * unit_mm_ + (adds ? from : 0);
+        if (to == from) continue;
+        const bool is_straight = motion_ == Motion::rapid || motion_ == Motion::line;
+        if (!is_straight || captured_ || side_ != 0) {
+            return path_.refuse(
+                place(word->column),
+                std::string(1, "UVW"[k]) + " moves within a contour or curve: that is not read",
+                "let the CAM system write the path with X, Y and Z");
+        }
+        if (auto done = close_contour(); !done) return done;
+        contour_.leave();
+        if (auto done = path_.place_beside(k, to, place(word->column)); !done) return done;
+    }
+    return {};
+}
+
 // AP= and RP= about the pole; one that is missing stays as it is.
 Result<void> Interpreter::polar_target(const Words& words, Vec3& to) {
     const auto [u, v, w] = axes();
@@ -165,7 +190,11 @@ Result<void> Interpreter::leave_for_machine(const Words& words) {
     tangent_ = {};
     if (auto done = orient(words); !done) return done;
     path_.set_rotary(target_rad_);
-    if (!words.has_linear()) return {};
+    for (int k = 0; k < 3; ++k) {
+        if (!words.beside[static_cast<std::size_t>(k)]) continue;
+        if (auto done = path_.place_beside(k, 0, place(words.first_column)); !done) return done;
+    }
+    if (!words.has_linear() && !words.has_beside()) return {};
     if (path_.first(kMachinePlace)) {
         path_.warn(line_number(),
                    "SUPA, G53, G74 and G75 go to places that only the machine knows: the path is left out "
@@ -179,7 +208,7 @@ Result<void> Interpreter::leave_for_machine(const Words& words) {
     }
     std::array<Known, 3> known{path_.known(0), path_.known(1), path_.known(2)};
     for (std::size_t k = 0; k < 3; ++k) {
-        if (words.linear[k]) known[k] = Known::lost;
+        if (words.linear[k] || words.beside[k]) known[k] = Known::lost;
     }
     path_.put(path_.tip(), known, line_number());
     return {};

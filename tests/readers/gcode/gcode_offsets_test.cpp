@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Ends of moves as rs274 of linuxcnc-uspace 2.9.0~pre1 gives them for the same text.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -87,6 +89,74 @@ TEST(GcodeReader, StreamsTheSameMovesThatItCollects) {
         EXPECT_EQ(sink.moves[i].end, whole.moves[i].end);
         EXPECT_EQ(sink.moves[i].line, whole.moves[i].line);
     }
+}
+
+// The tool is at 5, 3, 5, and U V W are at 0.
+TEST(GcodeParallelAxes, TheTipStandsAtTheSum) {
+    expect_ends("W-2\nX6 W-3\nZ1\nW0\n", {{5, 3, 3}, {6, 3, 2}, {6, 3, -2}, {6, 3, 1}});
+    expect_ends("G91\nW-1\nW-1 Z1\nG90\nZ0\n", {{5, 3, 4}, {5, 3, -2}});
+    expect_ends("G0 U1 V2\nG1 X0\nG20 W-1\n", {{6, 5, 5}, {1, 5, 5}, {1, 5, -20.4}});
+    // Centres that are absolute, and circles, lie in the shifted coordinates.
+    expect_ends("U10\nX0 Y0\nG90.1 G2 X2 Y0 I1 J0\n", {{15, 3, 5}, {10, 0, 5}, {12, 0, 5}});
+}
+
+TEST(GcodeParallelAxes, G92AndG28) {
+    expect_ends("W-2\nG92 W0\nW1\nZ0\n", {{5, 3, 3}, {5, 3, 4}, {5, 3, -1}});
+    // W goes back to where it was at the start.
+    expect_ends("W-2\nG28 W0\nG0 Z4\nZ5\n", {{5, 3, 3}, {5, 3, 5}});
+    expect_ends("W-2\nG53 W0\nG0 Z4\nZ5\n", {{5, 3, 3}, {5, 3, 5}});
+    expect_ends("W-2\nG91 G28 Z0\nG90 G0 Z4\nZ5\n", {{5, 3, 3}, {5, 3, 3}});
+}
+
+// Random words of all six axes: the tip is at the sum, whatever stands in one block.
+TEST(GcodeParallelAxes, AnyWordsAddUp) {
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> draw(-50, 50);
+    for (int n = 0; n < 300; ++n) {
+        Vec3 beside, main{5, 3, 5};
+        std::string text;
+        std::vector<Vec3> expected;
+        for (int block = 0; block < 6; ++block) {
+            const bool incremental = draw(random) > 0;
+            text += incremental ? "G91" : "G90";
+            for (int axis = 0; axis < 3; ++axis) {
+                for (const bool is_beside : {false, true}) {
+                    // Not X Y U V in one block: a hot wire.
+                    if (draw(random) > 0 || (is_beside && axis == 1)) continue;
+                    const int mm = draw(random);
+                    text += (is_beside ? "UVW" : "XYZ")[axis] + std::to_string(mm);
+                    double& place = (is_beside ? beside : main)[axis];
+                    place = mm + (incremental ? place : 0);
+                }
+            }
+            text += "\n";
+            const Vec3 before = expected.empty() ? Vec3{5, 3, 5} : expected.back();
+            if (main + beside != before) expected.push_back(main + beside);
+        }
+        expect_ends(text, expected);
+    }
+}
+
+TEST(GcodeParallelAxes, AreRefusedWhereTheyMeanSomethingElse) {
+    const auto refused = [](const std::string& text, const std::string& why) {
+        const auto program = read_gcode("G21 M3 F100\nG0 X0 Y0 Z5\n" + text);
+        ASSERT_FALSE(program) << text;
+        EXPECT_NE(program.error().cause.find(why), std::string::npos) << program.error().text();
+    };
+    refused("G1 X1 Y2 U1 V2\n", "hot wire");
+    refused("G2 X5 I2.5 W-1\n", "an arc");
+    refused("G81 X5 Z-3 R1 W-1\n", "a cycle");
+    refused("G81 X5 Z-3 R1\nW-1\n", "a cycle");
+    refused("G68 R10\nG1 W-1\n", "turned");
+    const auto lathe = read_gcode("G21 M3 F100\nG0 X0 Z5\nG1 U-1 W-2\n");
+    ASSERT_FALSE(lathe);
+    EXPECT_NE(lathe.error().cause.find("lathe"), std::string::npos);
+    // Said once each.
+    const motion::Program program = program_of("G21 M3 F100\nG0 X0 Y0 Z5\nG1 W-1\nW-2 U1\n");
+    EXPECT_EQ(
+        std::ranges::count_if(program.warnings,
+                              [](const Warning& w) { return w.text.find("parallel") != std::string::npos; }),
+        2);
 }
 
 }  // namespace

@@ -158,7 +158,8 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G3 I-10 P0\n", 3, 9, "number of turns"},
         {ready + "G1 X5 I2\n", 3, 7, "I without an arc"},
         {ready + "G1 X5 R2\n", 3, 7, "R without an arc"},
-        {ready + "G1 X5 U2\n", 3, 7, "U is a second axis"},
+        {ready + "G1 X5 Y1 U2 V1\n", 3, 10, "hot wire"},
+        {ready + "G2 X5 I-2.5 W1\n", 3, 13, "axis of an arc"},
         {ready + "G1 X2000000\n", 3, 4, "X: the coordinate of 2000000 mm is out of range"},
         {ready + "G3 I9999999999\n", 3, 4, "I: the coordinate of 9999999999 mm is out of range"},
         {ready + "G4 P-1\n", 3, 4, "dwell of -1 s is out of range"},
@@ -342,7 +343,7 @@ TEST(GcodeReader, GivesAllRefusalsAtOnce) {
     options.source_name = "part.nc";
     options.refusals = &refusals;
     const auto program = read_gcode(
-        "G21 M3 F100\nG0 X0 Y0 Z5\nG112 I5\nG1 Z-1\nX5 U2\nG112 I6\nG999\nG0 X1 $ Y2\nX9\n", options);
+        "G21 M3 F100\nG0 X0 Y0 Z5\nG112 I5\nG1 Z-1\nX5 Y1 U2 V1\nG112 I6\nG999\nG0 X1 $ Y2\nX9\n", options);
     ASSERT_FALSE(program.has_value());
     ASSERT_EQ(refusals.size(), 4U);
     EXPECT_EQ(program.error().text(), refusals[0].text());

@@ -9,6 +9,7 @@
 #include "readers/gcode/motion/corners.hpp"
 #include "readers/gcode/motion/cycles.hpp"
 #include "readers/gcode/motion/moves.hpp"
+#include "readers/gcode/motion/parallel_axes.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 #include "readers/gcode/motion/splines.hpp"
 
@@ -72,7 +73,7 @@ Result<void> move_at_feed(Command& command, State& state, Output& output) {
 
 // G53: coordinates relative to the zero of the machine, which is unknown to the program.
 Result<void> move_to_machine_position(Command& command, State& state, Output& output, int column) {
-    if (!command.has_any("XYZ")) {
+    if (!command.has_any("XYZUVW")) {
         if (output.first(Note::empty_code, 530)) {
             output.warn(command.line(), "G53 without coordinates moves nothing");
         }
@@ -84,10 +85,12 @@ Result<void> move_to_machine_position(Command& command, State& state, Output& ou
     }
     const bool is_oblique = state.tilt && state.tilt->frame.is_tilted();
     for (int axis = 0; axis < 3; ++axis) {
-        if (command.use(kAxisLetters[axis]) == nullptr && !is_oblique) continue;
+        const bool goes = command.use(kAxisLetters[axis]) != nullptr || command.use("UVW"[axis]) != nullptr;
+        if (!goes && !is_oblique) continue;
         state.known[static_cast<std::size_t>(axis)] = Known::lost;
         state.lost_line = command.line();
     }
+    home_parallel_axes(command, state);
     if (output.first(Note::machine_position)) {
         output.warn(
             command.line(),
@@ -159,8 +162,9 @@ Result<void> move_rapidly(Command& command, State& state, Output& output) {
 Result<void> apply_motion(Command& command, State& state, Output& output) {
     const bool turns =
         state.motion == MotionMode::arc_clockwise || state.motion == MotionMode::arc_counter_clockwise;
-    const bool moves = command.has_any("XYZ") || (turns && command.has_any("IJKR")) || state.rotary.stated;
-    if (command.has_g(GGroup::non_modal, 530) && (command.has_any("XYZ") || !state.rotary.stated)) {
+    const bool moves = command.has_any("XYZ") || (turns && command.has_any("IJKR")) || state.rotary.stated ||
+                       has_parallel_move(command, state);
+    if (command.has_g(GGroup::non_modal, 530) && (command.has_any("XYZUVW") || !state.rotary.stated)) {
         return move_to_machine_position(command, state, output, command.g(GGroup::non_modal)->column);
     }
     if (command.has_g(GGroup::motion, 53)) {

@@ -8,6 +8,7 @@
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/corners.hpp"
+#include "readers/gcode/motion/parallel_axes.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 #include "readers/text/decimal_text.hpp"
 
@@ -121,8 +122,10 @@ Result<Target> target_in_frame(Command& command, State& state, Output& output) {
 // Returns the target of the axis words. In G91 an axis without a stated position starts at the zero of the
 // program.
 Result<Target> target_of(Command& command, State& state, Output& output) {
+    const auto way = move_parallel_axes(command, state, output);
+    if (!way) return std::unexpected(way.error());
     if (!state.frame.is_plain()) return target_in_frame(command, state, output);
-    Target target{state.tip_mm, state.known};
+    Target target{state.tip_mm + *way, state.known};
     for (int axis = 0; axis < 3; ++axis) {
         const auto word = coordinate_mm(command, axis, state, output);
         if (!word) return std::unexpected(word.error());
@@ -249,9 +252,13 @@ void note_spindle(const Command& command, const State& state, Output& output) {
 }
 
 Result<std::optional<double>> coordinate_mm(Command& command, int axis, State& state, Output& output) {
-    const Word* word = command.use(kAxisLetters[axis]);
+    if (axis == 1 && command.has('Y')) state.has_y = true;
+    return length_mm(command, kAxisLetters[axis], state, output);
+}
+
+Result<std::optional<double>> length_mm(Command& command, char letter, State& state, Output& output) {
+    const Word* word = command.use(letter);
     if (word == nullptr) return std::nullopt;
-    if (axis == 1) state.has_y = true;
     const double value = word->value * state.unit_mm;
     if (auto good = in_range(kLimits.coordinate, value, command, *word, output); !good)
         return std::unexpected(good.error());

@@ -17,6 +17,9 @@ int column_of_any(Command& command, std::string_view letters);
 Result<void> in_range(const Limit& limit, double value, const Command& command, const Word& word,
                       const Output& output);
 
+// Returns the length of a word in mm, if the block has it. Refuses values out of range.
+Result<std::optional<double>> length_mm(Command& command, char letter, State& state, Output& output);
+
 // Returns the coordinate word of an axis (0 x, 1 y, 2 z) in mm, if the block has it. Refuses values out of
 // range.
 Result<std::optional<double>> coordinate_mm(Command& command, int axis, State& state, Output& output);

@@ -6,6 +6,7 @@
 
 #include "readers/gcode/motion/motion.hpp"
 #include "readers/gcode/motion/moves.hpp"
+#include "readers/gcode/motion/parallel_axes.hpp"
 
 namespace tribo::readers::gcode {
 namespace {
@@ -211,8 +212,9 @@ Result<void> shift_locally(Command& command, State& state, Output& output, int c
 
 // G92: gives new coordinates to the current position of the tip.
 Result<void> preset(Command& command, State& state, Output& output, int column) {
+    if (auto done = preset_parallel_axes(command, state, output); !done) return done;
     if (!command.has_any("XYZ")) {
-        if (command.has_any("ABCE")) return {};
+        if (command.has_any("ABCEUVW")) return {};
         return output.refuse(command.line(), column, "G92 without coordinates", "write X, Y or Z after it");
     }
     if (!state.preset_on) state.preset_mm = {};
@@ -232,7 +234,7 @@ Result<void> preset(Command& command, State& state, Output& output, int column) 
 
 // G28, G30: a rapid to the point of the block, then to a position defined by the machine.
 Result<void> go_home(Command& command, State& state, Output& output, int tenths) {
-    // U V W are increments of X Y Z; alone they name no point on the way.
+    // U V W are axes beside X Y Z, or their increments (lathe): alone they name no point on the way.
     std::array<bool, 3> goes{command.has_any("XU"), command.has_any("YV"), command.has_any("ZW")};
     const bool is_oblique = state.tilt && state.tilt->frame.is_tilted();
     if (!command.has_any("XYZABCUVW") || is_oblique) goes = {true, true, true};
@@ -241,6 +243,8 @@ Result<void> go_home(Command& command, State& state, Output& output, int tenths)
         if (state.known[axis] == Known::unstated) state.known[axis] = Known::lost;
     }
     state.lost_line = command.line();
+    for (const char letter : {'U', 'V', 'W'}) command.use(letter);
+    home_parallel_axes(command, state);
     if (auto moved = move_rapidly(command, state, output); !moved) return moved;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (goes[axis]) state.known[axis] = Known::lost;
