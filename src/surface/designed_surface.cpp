@@ -38,6 +38,26 @@ void sample_triangle(Vec3 a, Vec3 b, Vec3 c, const SurfaceSample& whole, double 
     sample_triangle(middle, to, tip, half, longest, out);
 }
 
+// A surface whose openings have a smaller share of its area is closed but for slits and holes.
+constexpr double kOpenShare = 0.01;
+
+// Returns a value > 0 if the triangles point to the outside.
+double outward(const TriangleMesh& mesh, bool watertight, Vec3 up) {
+    if (watertight) return volume_mm3(mesh);
+    const Vec3 middle = bounds(mesh).centre();
+    Vec3 twice_area;
+    double volume = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.position(t[0]);
+        const Vec3 normal = cross(mesh.position(t[1]) - a, mesh.position(t[2]) - a);
+        twice_area += normal;
+        volume += dot(a - middle, normal);
+    }
+    // The area vector of a surface is that of its openings.
+    const bool is_open = length(twice_area) > kOpenShare * 2 * area_mm2(mesh);
+    return is_open ? dot(up, twice_area) : volume;
+}
+
 }  // namespace
 
 DesignedSurface::DesignedSurface(TriangleMesh mesh, bool watertight)
@@ -58,16 +78,7 @@ Result<DesignedSurface> DesignedSurface::make(TriangleMesh mesh, Vec3 up) {
         return fail("the designed surface has no area", "check that the model holds a surface");
     }
     const bool watertight = is_watertight(mesh);
-    double outward = 0;
-    if (watertight) {
-        outward = volume_mm3(mesh);
-    } else {
-        for (const Triangle& t : mesh.triangles) {
-            const Vec3 a = mesh.position(t[0]);
-            outward += dot(up, cross(mesh.position(t[1]) - a, mesh.position(t[2]) - a));
-        }
-    }
-    if (outward < 0) {
+    if (outward(mesh, watertight, up) < 0) {
         for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     }
     return DesignedSurface(std::move(mesh), watertight);

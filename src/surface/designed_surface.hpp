@@ -22,8 +22,8 @@ class DesignedSurface {
   public:
     // Equal positions become one vertex. The outside of an open surface is the side to which its triangles
     // point. If they point away from `up` on the whole (by area), they are turned over, because exporters use
-    // either side. A closed surface is turned if it is inside out. Refuses a mesh without a triangle with an
-    // area.
+    // either side. A closed surface is turned if it is inside out; likewise one with slits or small holes,
+    // which points nowhere on the whole. Refuses a mesh without a triangle with an area.
     static Result<DesignedSurface> make(TriangleMesh mesh, Vec3 up = {0, 0, 1});
 
     // Returns the closest point. The distance is negative behind the surface, where material must stay. The

@@ -44,6 +44,44 @@ TEST(DesignedSurface, a_closed_surface_is_turned_outside_out) {
     EXPECT_LT(surface->signed_distance_mm({0.5, 0.5, 0.5}), 0);
 }
 
+// The pieces of a picture meet up to rounding: slits of a micrometre, which face somewhere on the whole by
+// chance.
+TEST(DesignedSurface, a_surface_with_slits_is_turned_outside_out) {
+    for (const float slit : {-1e-3f, 1e-3f}) {
+        for (const bool inside_out : {false, true}) {
+            TriangleMesh box{
+                {{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 3}, {3, 0, 3}, {3, 3, 3}, {0, 3, 3}},
+                {{0, 2, 1},
+                 {0, 3, 2},
+                 {0, 1, 5},
+                 {0, 5, 4},
+                 {1, 2, 6},
+                 {1, 6, 5},
+                 {2, 3, 7},
+                 {2, 7, 6},
+                 {3, 0, 4},
+                 {3, 4, 7},
+                 {8, 9, 10},
+                 {8, 10, 11}},
+                {}};
+            for (std::size_t corner = 4; corner < 8; ++corner) {
+                Point3f lid = box.positions[corner];
+                lid[0] = 1.5f + (1 + slit) * (lid[0] - 1.5f);
+                box.positions.push_back(lid);
+            }
+            for (Triangle& t : box.triangles) {
+                if (inside_out) std::swap(t[0], t[1]);
+            }
+            const auto surface = DesignedSurface::make(box);
+            ASSERT_TRUE(surface.has_value());
+            EXPECT_FALSE(surface->watertight());
+            for (const Vec3 out : {Vec3{1, 1, -1}, Vec3{1, 1, 4}, Vec3{-1, 1, 1}, Vec3{1, 4, 1}})
+                EXPECT_NEAR(surface->signed_distance_mm(out), 1, 1e-6);
+            EXPECT_NEAR(surface->signed_distance_mm({1.5, 1.5, 1}), -1, 1e-6);
+        }
+    }
+}
+
 TEST(DesignedSurface, split_vertices_hang_together_and_turned_triangles_are_counted) {
     TriangleMesh soup{
         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 2}, {3, 4, 5}}, {}};
