@@ -78,7 +78,7 @@ template <class Wire>
 void fields(Wire& wire, FrameOf<Wire, LiveChunk> chunk) {
     wire.time("t_s", chunk.t_s);
     fields(wire, chunk.at);
-    wire.mesh(chunk.mesh);
+    wire.mesh(chunk.mesh, chunk.step_mm);
     wire.added();
     wire.numbers("deviations_mm", chunk.deviations_mm);
     wire.u32("on_blank", chunk.on_blank);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "protocol/live_fields.hpp"
@@ -111,13 +113,15 @@ class Writer {
         u32(name, items.size());
         each(name, items, visit);
     }
-    void mesh(const TriangleMesh& mesh) {
+    void mesh(const TriangleMesh& mesh, double step_mm = 0) {
         assert(mesh.positions.size() <= 65536);
         const Box3 box = bounds(mesh);
         const Vec3 size = mesh.positions.empty() ? Vec3{} : box.size();
-        const Vec3 origin = mesh.positions.empty() ? Vec3{} : box.min;
+        Vec3 origin = mesh.positions.empty() ? Vec3{} : box.min;
         const double longest = std::max({size.x, size.y, size.z});
-        const double step = longest > 0 ? longest / kMeshSteps : 1;
+        const double step = step_mm > 0 ? step_mm : longest > 0 ? longest / kMeshSteps : 1;
+        for (int axis = 0; axis < 3 && step_mm > 0; ++axis)
+            origin[axis] = step * std::floor(origin[axis] / step);
         u32("", mesh.positions.size());
         u32("", mesh.triangles.size());
         vec3("", origin);
@@ -263,7 +267,7 @@ class Reader {
             visit(*this, item);
         }
     }
-    void mesh(TriangleMesh& mesh) {
+    void mesh(TriangleMesh& mesh, double /*step_mm*/ = 0) {
         std::uint32_t vertices = 0, triangles = 0;
         Vec3 origin;
         double step = 0;
@@ -331,6 +335,14 @@ std::optional<LiveFrame> frame_kind(std::span<const std::uint8_t> bytes) {
 
 bool header_flag(std::span<const std::uint8_t> bytes) {
     return bytes.size() >= kHeaderBytes && (bytes[kFlagsAt] & 1) != 0;
+}
+
+double step_of_chunks_mm(double longest_edge_mm, double farthest_mm) {
+    const double least = std::max(longest_edge_mm / (kMeshSteps - 2),
+                                  std::ldexp(farthest_mm, -std::numeric_limits<float>::digits));
+    int exponent = 0;
+    const double share = std::frexp(least, &exponent);
+    return std::ldexp(1.0, share == 0.5 ? exponent - 1 : exponent);
 }
 
 template <class Frame>

@@ -75,8 +75,11 @@ struct LiveChunkPlace {
     std::int32_t i = 0, j = 0, k = 0;
     auto operator<=>(const LiveChunkPlace&) const = default;
 };
-// A piece of the part's surface. Vertices are rounded to 1/65535 of the longest edge of the mesh's box; at
-// most 65,536 of them.
+// Returns a step for the chunks of one part, a power of two in mm: a chunk of this longest edge has at most
+// 65,533 steps, and single precision holds each of its multiples up to the farthest coordinate.
+double step_of_chunks_mm(double longest_edge_mm, double farthest_mm);
+
+// A piece of the part's surface, at most 65,536 vertices.
 struct LiveChunk {
     double t_s = 0;
     LiveChunkPlace at;  // replaces the chunk of the same place
@@ -89,6 +92,9 @@ struct LiveChunk {
     std::uint32_t on_blank = 0;
     // Drawn in a hurry: it comes again, exact, while the part stays as it is.
     bool rough = false;
+    // Vertices are written as multiples of it, so that chunks meet exactly. 0: as 1/65535 of the longest edge
+    // of the mesh's box.
+    double step_mm = 0;
 };
 
 // A piece of the designed surface, as a chunk is written.

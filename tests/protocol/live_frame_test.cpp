@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <random>
 #include <sstream>
 
 #include "files/json/json.hpp"
@@ -89,7 +90,7 @@ class Teller {
             told[name].push_back(std::move(of.told));
         }
     }
-    void mesh(const TriangleMesh& mesh) {
+    void mesh(const TriangleMesh& mesh, double = 0) {
         told["positions_mm"] = mesh.positions;
         told["triangles"] = mesh.triangles;
     }
@@ -264,6 +265,41 @@ TEST(LiveFrames, KeepAMeshWithinAStepOfItsBox) {
     EXPECT_FALSE(read_frame(bytes, read));
     LiveChunkPlace place;
     EXPECT_TRUE(read_frame(bytes, place));
+}
+
+// Two chunks of one part have other boxes and the same border: it is told alike.
+TEST(LiveFrames, TellABorderAlikeInBothChunks) {
+    std::mt19937 random(7);
+    const auto draw = [&](double least, double most) {
+        return static_cast<float>(std::uniform_real_distribution<double>(least, most)(random));
+    };
+    for (int n = 0; n < 200; ++n) {
+        const double edge = std::exp2(draw(-6, 8)), far = edge * std::exp2(draw(0, 12));
+        const double step = step_of_chunks_mm(edge, far + edge);
+        EXPECT_GE(65533 * step, edge);
+        EXPECT_LE(step, 2 * std::max(edge / 65533, std::ldexp(far + edge, -24)));
+        const Point3f shared{draw(-far, far), draw(-far, far), draw(-far, far)};
+        Point3f told[2];
+        for (Point3f& point : told) {
+            LiveChunk chunk;
+            chunk.step_mm = step;
+            chunk.mesh.positions = {shared, shared, shared};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                chunk.mesh.positions[1][axis] += draw(-0.5 * edge, 0);
+                chunk.mesh.positions[2][axis] += draw(0, 0.5 * edge);
+            }
+            Bytes bytes;
+            write_frame(chunk, bytes);
+            LiveChunk read;
+            ASSERT_TRUE(read_frame(bytes, read));
+            point = read.mesh.positions[0];
+            for (std::uint32_t v = 0; v < 3; ++v) {
+                const Vec3 off = read.mesh.position(v) - chunk.mesh.position(v);
+                for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(off[axis]), 0.5 * step);
+            }
+        }
+        EXPECT_EQ(told[0], told[1]);
+    }
 }
 
 // Counts of what is not there must not be believed.

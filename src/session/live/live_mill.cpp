@@ -327,7 +327,8 @@ void LiveMill::show_part(const std::function<bool()>& has_time, const protocol::
                                                   std::move(piece.mesh),
                                                   std::move(piece.deviations_mm),
                                                   piece.on_blank,
-                                                  piece.rough},
+                                                  piece.rough,
+                                                  picture_->step_mm()},
                               frame_);
         frames(frame_);
     };

@@ -8,6 +8,7 @@
 
 #include "base/hash.hpp"
 #include "field/contour/contour.hpp"
+#include "protocol/live_frame.hpp"
 #include "surface/deviation.hpp"
 
 namespace tribo::session {
@@ -82,6 +83,16 @@ PartPicture::PartPicture(const field::CarvedField& field, ParallelFor parallel,
 
 Box3 PartPicture::all() const {
     return field_.blank().bounds_mm();
+}
+
+double PartPicture::step_mm() const {
+    // Vertices lie in the cells beside their bricks at most, those of rough pieces in larger ones.
+    const double edge_mm = (kChunkBricks + 2) * field::kBrickCells * field_.cell_mm();
+    const Box3 box = all().inflated(edge_mm);
+    double farthest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        farthest = std::max({farthest, std::abs(box.min[axis]), std::abs(box.max[axis])});
+    return protocol::step_of_chunks_mm(edge_mm, farthest);
 }
 
 std::size_t PartPicture::number(ChunkCoord c) const {

@@ -50,6 +50,8 @@ class PartPicture {
     void mark(const Box3& box_mm);
     // The box of the whole field.
     Box3 all() const;
+    // The step of the vertices of all pieces as they are told (protocol::LiveChunk::step_mm).
+    double step_mm() const;
     // Calls show for each marked chunk whose surface has changed since it was last shown, in the order of the
     // marks, while `has_time` is true (checked after every few chunks). An empty mesh means that the surface
     // is gone. Cost: a check of each marked chunk, and a contour of the changed ones.

@@ -185,6 +185,29 @@ TEST(LiveMill, TellsHowFarThePartIsFromTheDesign) {
     (*LiveMill::create(slot, serial_for))->tick(0, always, expect_none);
 }
 
+// A picture or a file of all chunks has no slits between them.
+TEST(LiveMill, TellsChunksThatMeetExactly) {
+    auto live = *LiveMill::create(slot, serial_for);
+    std::map<protocol::LiveChunkPlace, protocol::LiveChunk> chunks;
+    live->set_clock(0.6 * live->duration_s());
+    for (int n = 0; n < 50; ++n) {
+        live->tick(0, always, [&](std::span<const std::uint8_t> frame) {
+            protocol::LiveChunk chunk;
+            if (protocol::read_frame(frame, chunk)) chunks[chunk.at] = chunk;
+        });
+    }
+    TriangleMesh part;
+    for (const auto& [at, chunk] : chunks) {
+        const auto first = static_cast<std::uint32_t>(part.positions.size());
+        part.positions.insert(part.positions.end(), chunk.mesh.positions.begin(), chunk.mesh.positions.end());
+        for (const Triangle& t : chunk.mesh.triangles)
+            part.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    EXPECT_GT(chunks.size(), 5u);
+    weld_exactly(part);
+    EXPECT_TRUE(is_watertight(part));
+}
+
 // A slot of 2 mm: its floor and walls are cut, the top beside it is not.
 TEST(LiveMill, TellsWhichVerticesLieOnTheBlank) {
     auto live = *LiveMill::create(slot, serial_for);
