@@ -63,6 +63,8 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
     "records, and plays the recording again",
     async () => {
       await until("rapid through stock", "collisions");
+      // So slowly that the recording ends before the collision.
+      await page.selectOption("#speed", "0.5");
       await page.click("#record");
       await page.click("#play");
       await until("Pause", "play");
@@ -82,6 +84,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
       }
       // The collision that was before the recording stops nothing.
       expect(await page.isVisible("#notice-box")).toBe(false);
+      await page.selectOption("#speed", "1");
       writeFileSync(path, readFileSync(path).subarray(0, 1000));
       await page.setInputFiles("#files", path);
       await until("run.tribo: the recording is cut off", "notice");

@@ -67,7 +67,6 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
       await until("job.toml", "job");
       await page.selectOption("#speed", "5");
       await page.click("#begin");
-      await until("Pause", "play");
       await removed(0.3);
       await until("rapid through stock", "collisions");
       // The clock stops at the first collision.
