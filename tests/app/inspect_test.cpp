@@ -76,7 +76,7 @@ TEST(Inspect, fits_the_modes_of_a_frequency_response) {
 
 TEST(Inspect, shows_all_refusals_at_once) {
     const Scratch scratch;
-    scratch.put("p.ngc", "G21\nG0 X0 Y0 Z0\nG888 I5\nG1 X1 F100\nG999\nG1 U5\n");
+    scratch.put("p.ngc", "G21\nG0 X0 Y0 Z0\nG888 I5\nG1 X1 F100\nG999\nG1 R5\n");
     const Outcome program = run_tribo({"inspect", "p.ngc", "--json"}, scratch.path());
     EXPECT_EQ(program.code, 2);
     EXPECT_EQ(program.out, "");
