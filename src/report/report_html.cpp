@@ -346,7 +346,9 @@ std::vector<ReportRow> worst_lines(const std::vector<ReportRow>& rows) {
     }
     std::vector<ReportRow> worst;
     for (const auto& [line, row] : of_line) worst.push_back(row);
-    std::ranges::stable_sort(worst, std::greater(), &ReportRow::peak_n);
+    std::ranges::sort(worst, [](const ReportRow& a, const ReportRow& b) {
+        return a.peak_n != b.peak_n ? a.peak_n > b.peak_n : a.line < b.line;
+    });
     worst.resize(std::min(worst.size(), kWorstLines));
     return worst;
 }

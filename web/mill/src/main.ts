@@ -174,11 +174,11 @@ function advise(text: string): void {
   hint.textContent = text;
 }
 
-// The clock stops at the first collision that it passes; after a step back again.
-function stopAtCollision(before: number, now: number): void {
-  if (now < before) stoppedAtHit = false;
-  const hit = hits.find(({ time }) => time > before && time <= now);
-  if (!hit || stoppedAtHit || !transport.pause()) return;
+// The clock stops at the first collision that it passes; after a step back again. One step may pass it and end the program.
+function stopAtCollision(before: StateFrame, now: StateFrame): void {
+  if (now.time < before.time) stoppedAtHit = false;
+  const hit = hits.find(({ time }) => time > before.time && time <= now.time);
+  if (!hit || stoppedAtHit || !(transport.pause() || before.playing)) return;
   stoppedAtHit = true;
   say(t("Line {line}: {what}. The clock stands; Play goes on.", { line: hit.line, what: hit.what }));
 }
@@ -203,7 +203,7 @@ function show(state: StateFrame): void {
   milled = state.milled;
   if (finger.enabled && begun && !felt) advise(t(invitation));
   // At last: a source may answer at once.
-  if (before) stopAtCollision(before.time, state.time);
+  if (before) stopAtCollision(before, state);
 }
 
 function take(frame: Frame, bytes: ArrayBuffer): void {

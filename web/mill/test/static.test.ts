@@ -395,7 +395,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
       await until("Play", "play");
       await page.click("#skip-air");
       await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-      await until("job.toml", "job");
+      await until("4G1 X35", "program-line-4");
       await page.fill("#time", "1000");
       await page.waitForSelector("#next-problem:not([hidden])", { timeout: PATIENCE_MS });
     },
