@@ -370,7 +370,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
     "runs through air faster and faster, and as chosen in the cut",
     async () => {
       // Half a minute of air, then a cut.
-      const air = "G21 G90\nG0 X-8 Y8 Z5\nG1 X22 F60\nZ-1 F600\nX35 F60\nM30\n";
+      const air = "G21 G90\nG0 X-8 Y8 Z5\nG1 X22 F60\nZ-1 F600\nX35 F12\nM30\n";
       await choose(file("job.toml", JOB), file("p.nc", air));
       await until("job.toml", "job");
       await page.selectOption("#speed", "1");
@@ -412,8 +412,12 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
         .poll(() => page.inputValue("#time").then(Number), { timeout: PATIENCE_MS })
         .toBeGreaterThan(end - 1e-6);
       await page.focus("#scene");
-      await page.keyboard.press("n");
-      await expect.poll(() => page.inputValue("#time").then(Number), { timeout: PATIENCE_MS }).toBeLessThan(end - 0.01);
+      // The clock may be ahead of the mill: the problem is found when it is milled.
+      const next = async () => {
+        await page.keyboard.press("n");
+        return Number(await page.inputValue("#time"));
+      };
+      await expect.poll(next, { timeout: PATIENCE_MS }).toBeLessThan(end - 0.01);
       await page.fill("#time", "1000");
       await page.keyboard.press("?");
       await page.waitForSelector("#keys[open]");
