@@ -345,6 +345,7 @@ std::vector<ReportRow> worst_lines(const std::vector<ReportRow>& rows) {
         if (!is_new && row.peak_n > at->second.peak_n) at->second = row;
     }
     std::vector<ReportRow> worst;
+    worst.reserve(of_line.size());
     for (const auto& [line, row] : of_line) worst.push_back(row);
     std::ranges::sort(worst, [](const ReportRow& a, const ReportRow& b) {
         return a.peak_n != b.peak_n ? a.peak_n > b.peak_n : a.line < b.line;

@@ -64,8 +64,8 @@ Result<void> read_tools(const ProgramFlags& flags, job::ProgramInputs& inputs) {
 
 CLI::Option* add_job(CLI::App& verb, std::string& job, const std::string& description, ProgramFlags& flags,
                      const char* name) {
-    const std::function<std::string(std::string)> standard_input = [](std::string file) {
-        return file == "-" ? kStandardInput : file;
+    const std::function<std::string(std::string)> standard_input = [](const std::string& file) {
+        return file == "-" ? std::string(kStandardInput) : file;
     };
     CLI::Option* option = verb.add_option(name, job, description)->transform(standard_input);
     const CLI::Validator says_something(

@@ -98,6 +98,7 @@ Box box_of(const Element& element) {
 std::vector<Element> split(const std::vector<Element>& elements) {
     std::vector<std::vector<double>> cuts(elements.size());
     std::vector<Box> boxes;
+    boxes.reserve(elements.size());
     for (const Element& element : elements) boxes.push_back(box_of(element));
     const auto cut = [&](std::size_t i, Point p) {
         const double length = elements[i].length();

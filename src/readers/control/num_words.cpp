@@ -109,7 +109,7 @@ class NumBlock {
     std::optional<std::string> take(std::string_view address) {
         const auto found = std::ranges::find(words_, address, &NumWord::address);
         if (found == words_.end()) return std::nullopt;
-        const std::string value = found->is_negative ? "[0-" + found->value + "]" : found->value;
+        std::string value = found->is_negative ? "[0-" + found->value + "]" : found->value;
         words_.erase(found);
         return value;
     }
@@ -260,7 +260,9 @@ std::string NumWords::assignment() {
             }
         }
         const std::string value = formula(std::string_view(in_).substr(start, end - start));
-        out += value.starts_with("GNUM") ? value : variable + "=" + value + " ";
+        if (!value.starts_with("GNUM")) out.append(variable).append("=");
+        out += value;
+        if (!value.starts_with("GNUM")) out += ' ';
         at = end;
     }
     return out;
@@ -283,7 +285,14 @@ std::string NumWords::jump(std::size_t at) {
                           right = formula(condition.substr(found + sign.size()));
         if (left.starts_with("GNUM") || left.empty() || right.starts_with("GNUM") || right.empty())
             return refused("79");
-        return "IF[" + left + " " + std::string(word) + " " + right + "]GOTO" + std::string(digits);
+        return std::string("IF[")
+            .append(left)
+            .append(" ")
+            .append(word)
+            .append(" ")
+            .append(right)
+            .append("]GOTO")
+            .append(digits);
     }
     return refused("79");
 }
@@ -338,18 +347,22 @@ std::string NumWords::line(std::string_view text) {
         at += 1 + number.size();
     }
     in_ = trimmed(std::string_view(in_).substr(at));
-    if (in_ == "VAR" || in_ == "ENDV" || all_digits(in_)) return head + comments;
-    if (const std::string assigned = assignment(); !assigned.empty()) return head + assigned + comments;
+    const auto line = [&](std::string_view text) {
+        std::string all = head;
+        return all.append(text).append(comments);
+    };
+    if (in_ == "VAR" || in_ == "ENDV" || all_digits(in_)) return line("");
+    if (const std::string assigned = assignment(); !assigned.empty()) return line(assigned);
     std::vector<NumWord> words;
     for (at = 0; at < in_.size();) {
         if (is_blank(in_[at])) {
             ++at;
         } else if (from(in_, at).starts_with("G79")) {
-            return head + (words.empty() ? jump(at + 3) : refused("79")) + comments;
+            return line(words.empty() ? jump(at + 3) : refused("79"));
         } else if (!read_word(at, words)) {
-            return head + in_ + comments;  // refused as it is written
+            return line(in_);  // refused as it is written
         } else if (at < in_.size() && in_[at] == '=') {
-            return head + refused(words.back().address + words.back().value) + comments;
+            return line(refused(words.back().address + words.back().value));
         }
     }
     for (NumWord& word : words) {

@@ -29,6 +29,17 @@ bool belongs_to_function(std::string_view name) {
     return name == "LA" || name == "LB" || name == "T" || name == "TM" || name == "E";
 }
 
+constexpr std::string_view kFeeds[] = {"F", "FAUTO", "AUTO", "MAX", "FU", "FZ"};
+
+// True for words that are read elsewhere or mean nothing here.
+bool is_passed(const Item& item, std::string_view own) {
+    // The normal of the surface: radius compensation alone uses it.
+    const bool is_normal = own == "LN" && item.value && item.name.size() == 2 && item.name[0] == 'N';
+    // Old controls print the words that a block leaves empty.
+    const bool is_empty = (item.name == "R" || item.name == "M") && !item.value && item.sign == 0;
+    return is_normal || is_empty || std::ranges::find(kFeeds, item.name) != std::end(kFeeds);
+}
+
 }  // namespace
 
 // Sorts the items of a path function; `own` is its name, for messages. Words of free contours go to `free`.
@@ -74,24 +85,23 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         words.beside[beside] = from_mm + *item.value * unit_mm_;
     } else if (rotary < 3 && item.value) {
         if (auto good = in.in_range(kLimits.rotary_angle, *item.value, item.column); !good) return good;
-        (incremental ? words.turn : words.rotary)[rotary] = *item.value;
+        (incremental ? words.turn : words.rotary)[rotary] = item.value;
     } else if (vector < 3 && item.value && own == "LN") {
         words.vector[vector] = *item.value * mirror_[static_cast<int>(vector)];
-    } else if (own == "LN" && item.value && item.name.size() == 2 && item.name[0] == 'N') {
-        return {};  // the normal of the surface: used by radius compensation only
+    } else if (is_passed(item, own) || (!words.m.empty() && belongs_to_function(item.name))) {
+        return {};
     } else if (name == "PR" && item.value) {
         words.polar_radius = *item.value * unit_mm_;
         words.polar_radius_increment = incremental;
     } else if (name == "PA" && item.value) {
-        (incremental ? words.polar_turn : words.polar_angle) = *item.value;
+        (incremental ? words.polar_turn : words.polar_angle) = item.value;
     } else if (item.name == "DR" && item.sign != 0) {
         words.direction = item.sign;
-    } else if (item.name == "LEN" && item.value && (own == "APPR" || own == "DEP")) {
-        words.length = *item.value * unit_mm_ * plane_scale();
-    } else if (own == "CHF" && item.name.empty() && item.value && !words.length) {
+    } else if (item.value && ((item.name == "LEN" && (own == "APPR" || own == "DEP")) ||
+                              (own == "CHF" && item.name.empty() && !words.length))) {
         words.length = *item.value * unit_mm_ * plane_scale();
     } else if (item.name == "CCA" && item.value && (own == "APPR" || own == "DEP")) {
-        words.angle = *item.value;
+        words.angle = item.value;
     } else if (item.name == "R" && item.value && !words.radius &&
                (own == "CR" || own == "RND" || own == "APPR" || own == "DEP")) {
         words.radius = *item.value * unit_mm_ * plane_scale();
@@ -99,16 +109,11 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         words.side = 0;
     } else if (item.name == "RL" || item.name == "RR") {
         words.side = item.name == "RL" ? 1 : -1;
-    } else if ((item.name == "R" || item.name == "M") && !item.value && item.sign == 0) {
-        return {};  // old controls print the words that a block leaves empty
     } else if (item.name == "R") {
         return in.refuse(item.column, "radius compensation in one axis (" + item.name + ") is not read",
                          "write RL, RR or R0");
     } else if (item.name == "FMAX") {
         words.fast = true;
-    } else if (item.name == "F" || item.name == "FAUTO" || item.name == "AUTO" || item.name == "MAX" ||
-               item.name == "FU" || item.name == "FZ") {
-        return {};  // read by apply_feed
     } else if (item.name == "FT" || item.name == "FMAXT") {
         if (path_.first(kTimedFeed)) {
             path_.warn(item.line, item.name + " gives the time of a move: the feed before it stays");
@@ -122,8 +127,6 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         if (item.value) words.retract = *item.value * unit_mm_;
     } else if (item.name == "MBMAX") {
         words.retract = std::numeric_limits<double>::infinity();
-    } else if (!words.m.empty() && belongs_to_function(item.name)) {
-        return {};
     } else {
         return in.refuse(item.column,
                          "'" + item.name + "' does not belong into " +

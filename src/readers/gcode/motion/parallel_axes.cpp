@@ -25,6 +25,16 @@ std::string cause_of_refusal(const Command& command, const State& state, Output&
     return is_turned ? "an axis beside turned, scaled, tilted or rolled coordinates" : "";
 }
 
+std::string means(const Word& word, const std::string& cause) {
+    return std::string(1, word.letter) + " would be " + cause + ": that is not read";
+}
+
+std::string taken_as(int axis) {
+    const std::string letter(1, kLetters[axis]);
+    return letter + " is taken as an axis parallel to " + kBeside[axis] +
+           ": the tip stands at the sum of both, and " + letter + " starts at 0";
+}
+
 }  // namespace
 
 bool has_parallel_move(const Command& command, const State& state) {
@@ -39,13 +49,11 @@ Result<Vec3> move_parallel_axes(Command& command, State& state, Output& output) 
     for (int axis = 0; axis < 3; ++axis) {
         const Word* word = command.use(kLetters[axis]);
         if (word == nullptr) continue;
-        const std::string letter(1, word->letter);
         const std::string cause = cause_of_refusal(command, state, output);
         // A word that is 0 in a program without such axes moves nothing, whatever it means.
         if (!cause.empty() && word->value == 0 && state.parallel.at_mm == Vec3{}) continue;
         if (!cause.empty()) {
-            return output.refuse(command.line(), word->column,
-                                 letter + " would be " + cause + ": that is not read",
+            return output.refuse(command.line(), word->column, means(*word, cause),
                                  "let the CAM system write the path with X, Y and Z");
         }
         const auto written = length_mm(command, word->letter, state, output);
@@ -54,11 +62,7 @@ Result<Vec3> move_parallel_axes(Command& command, State& state, Output& output) 
         const double to = (state.incremental ? place : state.parallel.zero_mm[axis]) + **written;
         way_mm[axis] = to - place;
         place = to;
-        if (output.first(Note::parallel_axis, word->letter)) {
-            output.warn(command.line(), letter + " is taken as an axis parallel to " + kBeside[axis] +
-                                            ": the tip stands at the sum of both, and " + letter +
-                                            " starts at 0");
-        }
+        if (output.first(Note::parallel_axis, word->letter)) output.warn(command.line(), taken_as(axis));
     }
     return way_mm;
 }
