@@ -54,6 +54,8 @@ std::string summary_json(const Summary& s) {
     files::set(json, "gouge_max_mm", s.gouge_max_mm);
     files::set(json, "rest_max_mm", s.rest_max_mm);
     files::set(json, "scallop_max_mm", s.scallop_max_mm);
+    if (s.gouge_at_mm) json["gouge_at_mm"] = files::triple(*s.gouge_at_mm);
+    if (s.rest_at_mm) json["rest_at_mm"] = files::triple(*s.rest_at_mm);
     if (s.stock_record) json["stock_record"] = stock_record_json(*s.stock_record);
     if (s.as_published) json["as_published"] = true;
     json["collisions"] = files::Json::array();

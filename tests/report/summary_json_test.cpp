@@ -28,6 +28,7 @@ Summary full() {
     s.resolution_mm = 0.25;
     s.gouge_max_mm = 0.01;
     s.rest_max_mm = 0.5;
+    s.rest_at_mm = Vec3{1, 2.5, -3};
     s.scallop_max_mm = 0.127;
     s.collisions = {{12, 3.5, "holder", {1, 2, 3}}};
     s.warnings = {{"p.ngc", 4, "no G20 or G21: millimetres"}};

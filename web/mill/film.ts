@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: MIT
 // npm run film: films the first half minute of the page in Chromium, as docs/film.mp4 with its sound and docs/film.webp for the README.
-// The pictures are taken in slow motion, for the graphics of a processor are slow; the sound is taken in a run of its own. Needs the
-// built site, and ffmpeg with libwebp and libx264.
+// The pictures are taken in slow motion, for the graphics of a processor are slow; the sound is made for their times by the same modules.
+// Needs the built site, and ffmpeg with libwebp and libx264.
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
+import { decodeFrame } from "@tribo/protocol/frames";
+import type { AnyExports, MillExports, MillSoundExports } from "@tribo/wasm/exports";
+import { floatsAt, lend, textAt } from "@tribo/wasm/memory";
+import { AS_MANY_AS_NEEDED, openMill, putFile, tickMill } from "@tribo/wasm/mill";
+import { obey } from "@tribo/wasm/mill_command";
+import { instantiate } from "@tribo/wasm/module";
 import { launch } from "../testing/browser.js";
 import { serveFolder } from "../testing/server.js";
-import { ROOT, SITE } from "../tools/places.js";
+import { MODULES, ROOT, SITE } from "../tools/places.js";
+import { RATE } from "./src/learn/clip.js";
 
 const VIEW = { width: 1280, height: 800 };
-const VIEW_TO_HEAR = { width: 640, height: 480 };
+const BOWL = join(ROOT, "examples/bowl");
 // Times slower than the clock of the world.
 const SLOWER = 24;
 // Of the finished part before the film, s.
@@ -22,41 +29,14 @@ const VIDEO_RATE = 15;
 const SMALL = { rate: 8, width: 640, mostBytes: 2e6, qualities: [60, 50, 40, 30, 20, 10] };
 
 interface Filmed {
-  /** Of each picture, s after the click that begins the film. */
-  pictures: { at: number; path: string }[];
+  /** Of each picture: s after the click that begins the film, and s of the program. */
+  pictures: { at: number; time: number; path: string }[];
   ends: number;
 }
 
 const slowed = (slower: number) => `{
   const now = performance.now.bind(performance);
   performance.now = () => now() / ${slower};
-}\n`;
-
-// All that sounds, as a WebM file; window.sounded gives it.
-const hears = `{
-  const { connect } = AudioNode.prototype;
-  let recorder;
-  const parts = [];
-  AudioNode.prototype.connect = function (to, ...more) {
-    if (to === this.context.destination && !recorder) {
-      const tap = this.context.createMediaStreamDestination();
-      connect.call(this, tap);
-      recorder = new MediaRecorder(tap.stream, { mimeType: "audio/webm;codecs=opus", audioBitsPerSecond: 160000 });
-      recorder.ondataavailable = ({ data }) => parts.push(data);
-      recorder.onstart = () => (window.soundBegan = performance.now() / 1000);
-      recorder.start(500);
-    }
-    return connect.call(this, to, ...more);
-  };
-  window.sounded = async () => {
-    await new Promise((done) => ((recorder.onstop = done), recorder.stop()));
-    const url = await new Promise((done) => {
-      const reader = new FileReader();
-      reader.onload = () => done(reader.result);
-      reader.readAsDataURL(new Blob(parts));
-    });
-    return url.slice(url.indexOf(",") + 1);
-  };
 }\n`;
 
 const clockOf = (page: Page) => page.evaluate(() => performance.now() / 1000);
@@ -91,25 +71,40 @@ async function film(folder: string, root: string): Promise<Filmed> {
     if (at - (pictures.at(-1)?.at ?? -Infinity) < 1 / VIDEO_RATE) return;
     const path = join(folder, `${pictures.length}.jpg`);
     await page.screenshot({ path, type: "jpeg", quality: 95 });
-    pictures.push({ at, path });
+    pictures.push({ at, time: Number(await page.inputValue("#time")), path });
   });
   await browser.close();
   return { pictures, ends };
 }
 
-// Returns when the sound begins, s after the click.
-async function hear(path: string, root: string): Promise<number> {
-  const browser = await launch();
-  const page = await browser.newPage({ viewport: VIEW_TO_HEAR });
-  await page.addInitScript(hears);
-  await page.goto(`${root}/mill/`);
-  const { clicked, ends } = await play(page, () => page.waitForTimeout(200));
-  const heard = (await page.evaluate("sounded()")) as string;
-  writeFileSync(path, Buffer.from(heard, "base64"));
-  const began = (await page.evaluate("soundBegan")) as number;
-  await browser.close();
-  console.log(`sound: from ${(began - clicked).toFixed(2)} s on, the film ends at ${ends.toFixed(2)} s`);
-  return began - clicked;
+// The sound of the bowl to the clock of the film: what the page's own modules play for these times. Left and right interleaved.
+async function soundOf({ pictures, ends }: Filmed): Promise<Float32Array> {
+  const module = async <Exports extends AnyExports>(name: string) =>
+    instantiate<Exports>(await WebAssembly.compile(readFileSync(join(MODULES, `${name}.wasm`))));
+  const mill = await module<MillExports>("tribo");
+  const ear = await module<MillSoundExports>("mill_sound");
+  ear.sound_open(RATE);
+  for (const name of readdirSync(BOWL)) putFile(mill, name, readFileSync(join(BOWL, name)));
+  if (!openMill(mill, "bowl.toml")) throw new Error(textAt(mill, mill.mill_text()));
+  obey(mill, { op: "seek", t_s: pictures.reduce((most, { time }) => Math.max(most, time), 0) });
+  for (const bytes of tickMill(mill, 0, AS_MANY_AS_NEEDED)) {
+    const { kind } = decodeFrame(bytes);
+    if (kind !== "state" && kind !== "chunk")
+      lend(ear, new Uint8Array(bytes), (at, length) => ear.sound_take(at, length));
+  }
+  const from = pictures[0]!.at;
+  const frames = RATE / 60;
+  const samples = new Float32Array(2 * frames * Math.floor(60 * (ends - from)));
+  for (let done = 0, n = 0; done < samples.length; done += 2 * frames) {
+    const at = from + done / 2 / RATE;
+    while (n + 2 < pictures.length && pictures[n + 1]!.at <= at) ++n;
+    const [before, after] = [pictures[n]!, pictures[n + 1]!];
+    // A step back stands still.
+    const speed = Math.max((after.time - before.time) / (after.at - before.at), 0);
+    ear.sound_follow(before.time + speed * (at - before.at), speed, Number(speed > 0), 0);
+    samples.set(floatsAt(ear, ear.sound_render(frames), 2 * frames), done);
+  }
+  return samples;
 }
 
 function encode(...options: (string | number)[]): void {
@@ -118,22 +113,23 @@ function encode(...options: (string | number)[]): void {
 
 const folder = mkdtempSync(join(tmpdir(), "tribo-film-"));
 const server = await serveFolder(SITE);
-const sound = join(folder, "sound.webm");
-const began = (await hear(sound, server.root)) + PRELUDE_S;
-const { pictures, ends } = await film(folder, server.root);
+const filmed = await film(folder, server.root);
 await server.close();
+const { pictures, ends } = filmed;
 const longest = Math.max(...pictures.slice(1).map(({ at }, n) => at - pictures[n]!.at));
 console.log(
-  `pictures: ${pictures.length}, at most ${longest.toFixed(2)} s apart; the film ends at ${ends.toFixed(2)} s`,
+  `${pictures.length} pictures, at most ${longest.toFixed(2)} s apart; the film ends at ${ends.toFixed(2)} s`,
 );
 const list = join(folder, "pictures.txt");
 const lasts = (n: number) => (pictures[n + 1]?.at ?? ends) - pictures[n]!.at;
 writeFileSync(list, pictures.map(({ path }, n) => `file '${path}'\nduration ${lasts(n).toFixed(4)}\n`).join(""));
+const sound = join(folder, "sound.raw");
+writeFileSync(sound, await soundOf(filmed));
 
 const shown = ["-f", "concat", "-safe", 0, "-i", list];
+const heard = ["-f", "f32le", "-ar", RATE, "-ac", 2, "-i", sound, "-c:a", "aac", "-b:a", "96k"];
 const video = ["-c:v", "libx264", "-preset", "slow", "-crf", 27, "-pix_fmt", "yuv420p", "-vf", `fps=${VIDEO_RATE}`];
 const files = { video: join(ROOT, "docs/film.mp4"), small: join(ROOT, "docs/film.webp") };
-const heard = ["-itsoffset", began.toFixed(3), "-i", sound, "-c:a", "aac", "-b:a", "96k"];
 encode(...shown, ...heard, ...video, "-movflags", "+faststart", files.video);
 for (const quality of SMALL.qualities) {
   const filter = `fps=${SMALL.rate},scale=${SMALL.width}:-2:flags=lanczos`;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // npm run measure [JOB]: what a visitor of `tribo live` waits for, in headless Chromium, as JSON: until the first picture (the blank)
 // and until the part's own surface is on the screen. At 1.6 Mbit/s and 150 ms with a processor four times slower, and without all that.
-// Medians of TRIBO_RUNS (5) runs. docs/mill-page.md has the numbers.
+// Medians of TRIBO_RUNS (5) runs. Then the gaps in the sound of the static page, alone and beside two busy processes.
+// docs/mill-page.md has the numbers.
 import { join } from "node:path";
 import { launch, slowDown } from "../testing/browser.js";
 import { startLive } from "../testing/live.js";
+import { soundGaps, type Gaps } from "./sound_gaps.js";
 import { ROOT } from "../tools/places.js";
 
 /** What was drawn, and when it was on the screen, ms. */
@@ -63,5 +65,14 @@ for (const [name, throttled] of [
   measured[`first_picture_${name}_ms`] = median(visits.map((seen) => seen.first));
   measured[`part_${name}_ms`] = median(visits.map((seen) => seen.part));
 }
-console.log(JSON.stringify(measured));
 engine.kill();
+for (const [name, busy] of [
+  ["alone", 0],
+  ["beside_two", 2],
+] as const) {
+  const runs: Gaps[] = [];
+  for (let n = 0; n < RUNS; ++n) runs.push(await soundGaps(busy));
+  measured[`sound_late_${name}_ms`] = Math.max(...runs.map((run) => run.late_ms));
+  measured[`sound_silent_${name}_ms`] = Math.max(...runs.map((run) => run.silent_ms));
+}
+console.log(JSON.stringify(measured));

@@ -224,6 +224,8 @@ FileResult<void> RenderOutputs::compare(const session::MillSession& session, rep
     summary.gouge_max_mm = d.gouge.mm;
     summary.rest_max_mm = d.rest.mm;
     summary.scallop_max_mm = d.scallop.mm;
+    if (d.gouge.mm > 0) summary.gouge_at_mm = d.gouge.machined_mm;
+    if (d.rest.mm > 0) summary.rest_at_mm = d.rest.machined_mm;
     return {};
 }
 
