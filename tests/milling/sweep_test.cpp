@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <optional>
+#include <random>
 #include <rapidcheck/gtest.h>
 
 #include "milling/brute_sweep.hpp"
@@ -297,6 +298,26 @@ RC_GTEST_PROP(Sweep, gradient_points_where_the_distance_grows, ()) {
     constexpr double kStep = 0.02;
     RC_ASSERT(sweep->distance_mm(*p + kStep * g) > -1e-9);
     RC_ASSERT(sweep->distance_mm(*p - kStep * g) < 1e-9);
+}
+
+// On the wall of a plunge all instants at which the tip is lower have the same distance: the side makes it,
+// whatever the rounding. Likewise the bottom makes the floor of a level move.
+TEST(Sweep, of_a_flat_plunge_has_a_level_gradient_at_its_wall) {
+    Cutter c;
+    c.kind = CutterKind::flat;
+    c.diameter_mm = 6;
+    const auto plunge = make_sweep(c, straight_move({1, 2, 3}, {0, 0, 1}, {0, 0, -10}));
+    const auto level = make_sweep(c, straight_move({1, 2, 3}, {0, 0, 1}, {10, 0, 0}));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (int n = 0; n < 20000; ++n) {
+        const double off = 1e-7 * std::floor(5 * share(random) - 2), turn = 6.3 * share(random);
+        const Vec3 out{std::cos(turn), std::sin(turn), 0};
+        const Vec3 wall = Vec3{1, 2, -6.5 + 9 * share(random)} + (3 + off) * out;
+        ASSERT_LT(length(plunge->gradient(wall) - out), 1e-3) << n;
+        const Vec3 floor{1 + 10 * share(random), 2 + 5.9 * (share(random) - 0.5), 3 - off};
+        ASSERT_LT(length(level->gradient(floor) - Vec3{0, 0, -1}), 1e-3) << n;
+    }
 }
 
 TEST(Sweep, of_a_reversed_move_is_the_same_volume) {

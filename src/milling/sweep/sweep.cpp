@@ -75,10 +75,10 @@ ToolView view(const CurvedLine& c, Vec3 point, double t) {
 
 // Returns the outward normal of the volume where the tool touches it at the instant t. Where side and bottom
 // of a flat cutter meet, the edge makes the surface: its normal is perpendicular to the travel of the edge,
-// between the two normals.
+// between the two normals. In a plunge that is the side, in a level move the bottom.
 Vec3 swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
     constexpr double kEdge = 1e-5;  // mm; many times the accuracy of the search
-    if (tool.kind == CutterKind::flat && t > 0 && t < 1 && v.drho * v.dz > 0 &&
+    if (tool.kind == CutterKind::flat && t > 0 && t < 1 && v.drho * v.dz >= 0 && (v.drho != 0 || v.dz != 0) &&
         std::abs(v.rho - tool.radius_mm + v.z) < kEdge) {
         const double side = std::abs(v.dz), bottom = std::abs(v.drho);
         return normalized(side * v.radial - bottom * v.axis);
