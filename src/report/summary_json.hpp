@@ -55,7 +55,7 @@ struct Summary {
     std::optional<std::uint64_t> triangles;  // absent: no mesh was requested
     double resolution_mm = 0;
     std::optional<double> gouge_max_mm, rest_max_mm, scallop_max_mm;  // if there is a designed surface
-    std::optional<Vec3> gouge_at_mm, rest_at_mm;  // on the machined surface; absent: there is none
+    std::optional<Vec3> gouge_at_mm, rest_at_mm;   // on the machined surface; absent: there is none
     std::optional<job::StockRecord> stock_record;  // absent: rendered from a program without a job
     bool as_published = false;
     std::vector<SummaryCollision> collisions;

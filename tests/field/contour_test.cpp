@@ -86,6 +86,25 @@ TEST(Contour, vertices_lie_on_the_exact_surface) {
     EXPECT_LT(static_cast<double>(off), 0.02 * static_cast<double>(mesh.positions.size()));
 }
 
+// Where a crest meets a wall three faces have a corner: no triangle cuts it off.
+TEST(Contour, of_grooves_through_walls_keeps_their_corners) {
+    for (const double cell : {0.2, 0.3, 0.4, 0.5}) {
+        auto f = block(cell);
+        for (double y = 5; y < 26; y += 2)
+            f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
+        const TriangleMesh mesh = contour(f);
+        double most = 0;
+        for (const Triangle& t : mesh.triangles) {
+            for (int k = 0; k < 3; ++k) {
+                const Vec3 a = mesh.position(t[static_cast<std::size_t>(k)]);
+                const Vec3 b = mesh.position(t[static_cast<std::size_t>((k + 1) % 3)]);
+                most = std::max(most, std::abs(f.distance_mm(0.5 * (a + b))));
+            }
+        }
+        EXPECT_LT(most, 0.02) << cell;
+    }
+}
+
 // Cusps of small balls in all directions. Vertices that stay in their cell, and those on faces of cells that
 // several pieces share, may miss.
 TEST(Contour, of_random_grooves_has_its_vertices_on_the_surface) {
@@ -109,7 +128,7 @@ TEST(Contour, of_random_grooves_has_its_vertices_on_the_surface) {
             off += mm > 2e-3 * cell ? 1 : 0;
         }
     }
-    EXPECT_LT(static_cast<double>(off), 0.025 * static_cast<double>(all));
+    EXPECT_LT(static_cast<double>(off), 0.02 * static_cast<double>(all));
 }
 
 // In a hurry: closed, and within the sagitta of a cell of the surface but at the cusps.

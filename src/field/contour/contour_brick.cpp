@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "field/contour/contour_corner.hpp"
 #include "field/shape/quadric.hpp"
 
 namespace tribo::field {
@@ -85,29 +86,6 @@ class BrickContour {
         return p;
     }
 
-    // Distance to the surface of one shape, and the direction out of the material that the shape bounds.
-    double distance(ShapeId shape, Vec3 p) const {
-        const double d = field_.shape(shape).distance_mm(p);
-        return shape == 0 ? d : -d;
-    }
-    Vec3 normal(ShapeId shape, Vec3 p) const {
-        const Vec3 g = field_.shape(shape).gradient(p);
-        return shape == 0 ? g : -g;
-    }
-
-    // The plane that touches the face of a crossing near `p`. It is evaluated a share `back` of the way from
-    // p to the crossing, so that this face of the shape answers, not the face that it meets at p.
-    struct Tangent {
-        Vec3 point, normal;
-    };
-    Tangent tangent_near(const Crossing& x, Vec3 p, double back) const {
-        const Vec3 beside = lerp(p - dot(p - x.point, x.normal) * x.normal, x.point, back);
-        const Vec3 n = normal(x.shape, beside);
-        constexpr double kSameFace = 0.8;  // cosine of the turn within a cell
-        if (dot(n, x.normal) < kSameFace) return {x.point, x.normal};
-        return {beside - distance(x.shape, beside) * n, n};
-    }
-
     bool is_plane() const {
         constexpr double kRoughAngle = 1e-3;  // of differences in single precision
         const double most_rad = options_.rough ? kRoughAngle : options_.flat_angle_rad;
@@ -176,6 +154,10 @@ class BrickContour {
             const Vec3 from = s.on_face(lattice, node, axis, seg.from);
             const Vec3 to = s.on_face(lattice, node, axis, seg.to);
             Vec3 middle = 0.5 * (from + to);
+            if (f.count == 1 && seg.from.edge != seg.to.edge) {
+                middle = corner_on_face(field_, nodes_.ref(), from, to, axis, nodes_.node_mm(node),
+                                        margin_ * field_.cell_mm());
+            }
             // Around the end of a wall the segment comes back to the edge from which it starts.
             if (seg.from.edge == seg.to.edge) {
                 const int along = seg.from.edge % 2 == 0 ? u : v, into = seg.from.edge % 2 == 0 ? v : u;
@@ -209,7 +191,9 @@ class BrickContour {
             if (!pieces.has(id, piece) || !pieces.comes_back(id)) continue;
             across = pieces.at[id]->normal - pieces.at[id + 1]->normal;
         }
-        if (across == Vec3{}) return std::nullopt;
+        // Sides that lean together by more than 37 degrees are those of an edge.
+        constexpr double kEdge = 1.9;
+        if (length(across) < kEdge) return std::nullopt;
         const double half = 0.5 * field_.cell_mm();
         across = normalized(across);
         Vec3 way = low + Vec3{half, half, half} - middle;
@@ -254,14 +238,15 @@ class BrickContour {
             const Vec3 p = into_cell(quadric.mean());
             const CarvedField::Exact e = field_.exact(nodes_.ref(), p);
             const bool near = std::abs(e.distance_mm) < 0.5 * field_.cell_mm();
-            return near ? into_cell(p - e.distance_mm * normal(e.shape, p)) : p;
+            return near ? into_cell(p - e.distance_mm * normal_of_face(field_, e.shape, p)) : p;
         }
         Vec3 p = into_cell(quadric.solve());
         Quadric planes;
         for (const double back : {0.3, 0.03}) {
             planes = {};
             for (std::size_t k = 0; k < count; ++k) {
-                const Tangent t = tangent_near(*around[k], p, back);
+                const FacePoint face{around[k]->point, around[k]->normal, around[k]->shape};
+                const FacePoint t = tangent_near(field_, face, p, back);
                 planes.add(t.point, t.normal);
             }
             p = into_cell(planes.solve());
@@ -279,7 +264,7 @@ class BrickContour {
         for (int n = 0; n < kSteps; ++n) {
             const CarvedField::Exact e = field_.exact(nodes_.ref(), p);
             if (std::abs(e.distance_mm) < close_mm) break;
-            const Vec3 out = normal(e.shape, p), foot = p - e.distance_mm * out;
+            const Vec3 out = normal_of_face(field_, e.shape, p), foot = p - e.distance_mm * out;
             if (n < kPlanes) planes.add(foot, out);
             p = into_cell(n < kPlanes ? planes.solve() : foot);
         }

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "field/contour/contour_corner.hpp"
+
 namespace tribo::field {
 namespace {
 
@@ -12,6 +14,7 @@ class FaceVertices {
         : table_(table),
           s_(surface),
           lattice_(table.field().lattice(surface.coord)),
+          ref_(table.field().ref(surface.coord)),
           behind_(table.behind(surface.coord)) {}
 
     std::vector<SurfaceTable::FaceVertex> find() {
@@ -66,9 +69,11 @@ class FaceVertices {
             const std::uint32_t p = any_vertex(lower, below), q = any_vertex(own, above);
             if (p == kNoVertex || q == kNoVertex || passes(node, axis, p, q)) return;
         }
+        const Vec3 from = s_.on_face(lattice_, node, axis, segment.from);
+        const Vec3 to = s_.on_face(lattice_, node, axis, segment.to);
+        const double off_mm = table_.margin() * lattice_.cell_mm;
         add(face, segment,
-            to_float(0.5 * (s_.on_face(lattice_, node, axis, segment.from) +
-                            s_.on_face(lattice_, node, axis, segment.to))));
+            to_float(corner_on_face(table_.field(), ref_, from, to, axis, node_mm(lattice_, node), off_mm)));
     }
 
     // Finds the one segment of a face that is crossed at two of its edges. Returns false if there is another
@@ -112,6 +117,7 @@ class FaceVertices {
     const SurfaceTable& table_;
     const BrickSurface& s_;
     Lattice lattice_;
+    BrickRef ref_;
     SurfacesBehind behind_;
     std::vector<SurfaceTable::FaceVertex> found_;
 };

@@ -239,11 +239,12 @@ Vec3 BrickNodes::rough_normal(int node) const {
 }
 
 // Regula falsi (Illinois) along an edge whose ends lie on different sides. It starts from the values there,
-// which are distances, so that one or two evaluations of the exact level are usual.
+// which are distances, so that one or two evaluations of the exact level are usual. At a kink beside a face
+// that runs along the edge it converges slowly: halvings find it.
 Crossing BrickNodes::find_crossing(BrickRef ref, int axis, int node, double t0, double t1, double d0,
                                    double d1) const {
     constexpr double kDone = 1e-7;  // mm
-    constexpr int kMost = 12;
+    constexpr int kMost = 40, kFalsi = 8;
     const Vec3 from = node_mm(node);
     Crossing x;
     x.point = from;
@@ -251,7 +252,7 @@ Crossing BrickNodes::find_crossing(BrickRef ref, int axis, int node, double t0, 
     CarvedField::Exact e{0, 0};
     int side = 0;
     for (int n = 0; n < kMost; ++n) {
-        x.along = t0 + (t1 - t0) * d0 / (d0 - d1);
+        x.along = n < kFalsi ? t0 + (t1 - t0) * d0 / (d0 - d1) : 0.5 * (t0 + t1);
         x.point[axis] = from[axis] + x.along * field_.cell_mm();
         e = field_.exact(ref, x.point);
         if (std::abs(e.distance_mm) < kDone) break;
