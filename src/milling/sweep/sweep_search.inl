@@ -195,8 +195,9 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, 
             const Stretch<T> other = blend<kEdge>(left_first, right, left);
             for (int n = 0; n <= used && n < kDepth; ++n) {
                 const auto here = both(two, depth == broadcast<T>(n));
-                aside[n] = blend<kEdge>(here, other, aside[n]);
-                floors[n] = select(here, second, floors[n]);
+                // Nothing lies in a new place yet.
+                aside[n] = n < used ? blend<kEdge>(here, other, aside[n]) : other;
+                floors[n] = n < used ? select(here, second, floors[n]) : second;
             }
             depth = select(two, depth + one, depth);
             if (any(depth > broadcast<T>(used))) ++used;
