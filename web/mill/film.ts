@@ -10,7 +10,7 @@ import type { Page } from "playwright-core";
 import { decodeFrame } from "@tribo/protocol/frames";
 import type { AnyExports, MillExports, MillSoundExports } from "@tribo/wasm/exports";
 import { floatsAt, lend, textAt } from "@tribo/wasm/memory";
-import { AS_MANY_AS_NEEDED, openMill, putFile, tickMill } from "@tribo/wasm/mill";
+import { openMill, putFile, tickMill } from "@tribo/wasm/mill";
 import { obey } from "@tribo/wasm/mill_command";
 import { instantiate } from "@tribo/wasm/module";
 import { launch } from "../testing/browser.js";
@@ -26,6 +26,9 @@ const SLOWER = 24;
 const PRELUDE_S = 3;
 const LONGEST_S = 60;
 const VIDEO_RATE = 15;
+// Speeds are those of so long; farther from a picture's time the clock is set anew, s.
+const EVEN_S = 0.5;
+const APART_S = 0.2;
 const SMALL = { rate: 8, width: 640, mostBytes: 2e6, qualities: [60, 50, 40, 30, 20, 10] };
 
 interface Filmed {
@@ -86,22 +89,34 @@ async function soundOf({ pictures, ends }: Filmed): Promise<Float32Array> {
   ear.sound_open(RATE);
   for (const name of readdirSync(BOWL)) putFile(mill, name, readFileSync(join(BOWL, name)));
   if (!openMill(mill, "bowl.toml")) throw new Error(textAt(mill, mill.mill_text()));
-  obey(mill, { op: "seek", t_s: pictures.reduce((most, { time }) => Math.max(most, time), 0) });
-  for (const bytes of tickMill(mill, 0, AS_MANY_AS_NEEDED)) {
-    const { kind } = decodeFrame(bytes);
-    if (kind !== "state" && kind !== "chunk")
-      lend(ear, new Uint8Array(bytes), (at, length) => ear.sound_take(at, length));
-  }
+  const timeAt = (at: number) => {
+    const n = Math.max(pictures.findIndex((picture) => picture.at > at) - 1, 0);
+    const [before, after] = [pictures[n]!, pictures[n + 1] ?? pictures[n]!];
+    // A step back stands still.
+    const speed = Math.max((after.time - before.time) / (after.at - before.at || 1), 0);
+    return before.time + speed * (at - before.at);
+  };
   const from = pictures[0]!.at;
   const frames = RATE / 60;
   const samples = new Float32Array(2 * frames * Math.floor(60 * (ends - from)));
-  for (let done = 0, n = 0; done < samples.length; done += 2 * frames) {
+  let time = NaN;
+  for (let done = 0; done < samples.length; done += 2 * frames) {
     const at = from + done / 2 / RATE;
-    while (n + 2 < pictures.length && pictures[n + 1]!.at <= at) ++n;
-    const [before, after] = [pictures[n]!, pictures[n + 1]!];
-    // A step back stands still.
-    const speed = Math.max((after.time - before.time) / (after.at - before.at), 0);
-    ear.sound_follow(before.time + speed * (at - before.at), speed, Number(speed > 0), 0);
+    const last = pictures.at(-1)!.at;
+    const wanted = timeAt(Math.min(at, last));
+    const speed = (timeAt(Math.min(at + EVEN_S, last)) - wanted) / EVEN_S;
+    if (!(Math.abs(wanted - time) < APART_S * Math.max(speed, 1))) obey(mill, { op: "seek", t_s: wanted });
+    if (speed > 0) obey(mill, { op: "speed", value: Math.abs(speed - 1) < 0.3 ? 1 : speed });
+    obey(mill, { op: speed > 0 ? "play" : "pause" });
+    for (const bytes of tickMill(mill, 1 / 60)) {
+      const frame = decodeFrame(bytes);
+      if (frame.kind === "state") {
+        ({ time } = frame);
+        ear.sound_follow(frame.time, frame.speed, Number(frame.playing), 0);
+      } else if (frame.kind !== "chunk") {
+        lend(ear, new Uint8Array(bytes), (place, length) => ear.sound_take(place, length));
+      }
+    }
     samples.set(floatsAt(ear, ear.sound_render(frames), 2 * frames), done);
   }
   return samples;
