@@ -57,11 +57,16 @@ export async function serve(find: (path: string) => Body | undefined): Promise<S
   };
 }
 
-export function serveFolder(folder: string): Promise<Server> {
-  const files = new Map<string, Uint8Array>();
+/** `change` may give a file another content. */
+export function serveFolder(
+  folder: string,
+  change: (path: string, body: Uint8Array) => Body = (_, body) => body,
+): Promise<Server> {
+  const files = new Map<string, Body>();
   return serve((path) => {
     const file = join(folder, normalize(path.endsWith("/") ? `${path}index.html` : path));
-    if (!files.has(file) && existsSync(file) && statSync(file).isFile()) files.set(file, readFileSync(file));
+    if (!files.has(file) && existsSync(file) && statSync(file).isFile())
+      files.set(file, change(path, readFileSync(file)));
     return files.get(file);
   });
 }
