@@ -16,7 +16,8 @@ constexpr std::string_view kZero[] = {"P_SEARCH", "P_SEARCHL", "P_SIM",  "P_ISTE
 
 int whole_at(const std::vector<Value>& index, std::size_t i) {
     const double* number = i < index.size() ? std::get_if<double>(&index[i]) : nullptr;
-    return number != nullptr ? static_cast<int>(std::clamp(*number, -1.0, 1e9)) : -1;
+    if (number == nullptr || !std::isfinite(*number)) return -1;
+    return static_cast<int>(std::clamp(*number, -1.0, 1e9));
 }
 
 }  // namespace
