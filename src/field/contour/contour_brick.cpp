@@ -245,8 +245,7 @@ class BrickContour {
         for (const double back : {0.3, 0.03}) {
             planes = {};
             for (std::size_t k = 0; k < count; ++k) {
-                const FacePoint face{around[k]->point, around[k]->normal, around[k]->shape};
-                const FacePoint t = tangent_near(field_, face, p, back);
+                const FacePoint t = tangent_near(field_, *around[k], p, back);
                 planes.add(t.point, t.normal);
             }
             p = into_cell(planes.solve());

@@ -268,8 +268,7 @@ Crossing BrickNodes::find_crossing(BrickRef ref, int axis, int node, double t0, 
             side = -1;
         }
     }
-    const Vec3 g = field_.shape(e.shape).gradient(x.point);
-    x.normal = e.shape == 0 ? g : -g;
+    x.normal = normal_of_face(field_, e.shape, x.point);
     x.shape = e.shape;
     return x;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "field/carved/carved_field.hpp"
+#include "field/contour/contour_corner.hpp"
 
 namespace tribo::field {
 
@@ -19,9 +20,7 @@ inline Vec3 node_mm(const Lattice& lattice, int node) {
 }
 
 // A point where the surface crosses an edge of the grid.
-struct Crossing {
-    Vec3 point, normal;  // mm; unit, out of the material
-    ShapeId shape = 0;
+struct Crossing : FacePoint {
     std::uint16_t edge = 0;  // lattice nodes x axis + lower node
     double along = 0;        // from the lower node of the edge, in cells
 };
