@@ -25,7 +25,7 @@ bool Path::knows_tip() const {
 }
 
 void Path::put(Vec3 tip_in_frame, std::array<Known, 3> known, int line) {
-    place_mm_ = beside_mm_ + frame.in_stock(tip_in_frame);
+    place_mm_ = parallel_mm_ + frame.in_stock(tip_in_frame);
     known_ = known;
     for (const Known k : known) {
         if (k == Known::lost) lost_line_ = line;
@@ -37,20 +37,20 @@ void Path::lose(int line) {
     lost_line_ = line;
 }
 
-Result<void> Path::place_beside(int axis, double mm, Place place) {
+Result<void> Path::place_parallel(int axis, double mm, Place place) {
     const std::string letter(1, "UVW"[axis]);
-    if (mm == beside_mm_[axis]) return {};
+    if (mm == parallel_mm_[axis]) return {};
     const bool is_straight = frame.x == Vec3{1, 0, 0} && frame.z == Vec3{0, 0, 1};
     if (!is_straight || tip_control || roll_) {
         return refuse(place, letter + " moves beside turned, tilted or rolled coordinates: that is not read",
                       "let the CAM system write the path with X, Y and Z");
     }
     if (auto good = in_range(kLimits.coordinate, mm, place); !good) return good;
-    if (!std::exchange(has_beside_[static_cast<std::size_t>(axis)], true)) {
+    if (!std::exchange(has_parallel_[static_cast<std::size_t>(axis)], true)) {
         warn(place.line, letter + " is taken as an axis parallel to " + "XYZ"[axis] +
                              ": the tip stands at the sum of both, and " + letter + " starts at 0");
     }
-    const double way_mm = mm - std::exchange(beside_mm_[axis], mm);
+    const double way_mm = mm - std::exchange(parallel_mm_[axis], mm);
     if (!knows_tip()) place_mm_[axis] += way_mm;
     return {};
 }
@@ -97,10 +97,10 @@ Result<void> Path::move(motion::MoveKind kind, Vec3 to, const std::optional<moti
     motion::Move move;
     move.kind = kind;
     move.start.tip_mm = place_mm_;
-    move.end.tip_mm = beside_mm_ + frame.in_stock(to);
+    move.end.tip_mm = parallel_mm_ + frame.in_stock(to);
     if (arc) {
         move.arc = arc;
-        move.arc->centre_mm = beside_mm_ + frame.in_stock(arc->centre_mm);
+        move.arc->centre_mm = parallel_mm_ + frame.in_stock(arc->centre_mm);
         move.arc->normal = frame.direction_in_stock(arc->normal);
     }
     move.start.axis = axis_;
@@ -172,7 +172,7 @@ Result<void> Path::follow(const motion::BSpline<motion::HomogeneousPoint>& curve
     motion.spline.degree = curve.degree;
     motion.spline.knots = curve.knots;
     for (const motion::HomogeneousPoint& p : curve.control) {
-        place_mm_ = beside_mm_ + frame.in_stock(p.point());
+        place_mm_ = parallel_mm_ + frame.in_stock(p.point());
         for (int k = 0; k < 3; ++k) {
             if (auto good = in_range(kLimits.coordinate, place_mm_[k], place); !good) return good;
         }

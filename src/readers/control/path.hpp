@@ -63,7 +63,7 @@ class Path {
     bool feed_on_part = false;
 
     // The tip in the coordinates of the frame; valid only if it is known.
-    Vec3 tip() const { return frame.from_stock(place_mm_ - beside_mm_); }
+    Vec3 tip() const { return frame.from_stock(place_mm_ - parallel_mm_); }
     bool knows_tip() const;
     Known known(int axis) const { return known_[static_cast<std::size_t>(axis)]; }
     int lost_line() const { return lost_line_; }
@@ -74,10 +74,10 @@ class Path {
     void lose(int line);
 
     // The axes U V W of the machine beside X Y Z: the tip stands at the sum, which the next move reaches.
-    double beside_mm(int axis) const { return beside_mm_[axis]; }
+    double parallel_mm(int axis) const { return parallel_mm_[axis]; }
     // Refuses it where the coordinates are not those of the machine's linear axes. Warns at the first move of
     // each axis.
-    Result<void> place_beside(int axis, double mm, Place place);
+    Result<void> place_parallel(int axis, double mm, Place place);
 
     // Adds a move to the point on a line or arc, in coordinates of the frame, while the rotary axes turn to
     // `to_rad`. The tip must be known.
@@ -149,8 +149,8 @@ class Path {
     std::map<int, double> declared_radii_mm_;
     std::set<int> declaring_lines_;
     Vec3 place_mm_;  // tip in the frame of the stock; on a machine without tip control its X Y Z
-    Vec3 beside_mm_;
-    std::array<bool, 3> has_beside_{};
+    Vec3 parallel_mm_;
+    std::array<bool, 3> has_parallel_{};
     std::array<Known, 3> known_{Known::unstated, Known::unstated, Known::unstated};
     int lost_line_ = 0;
     std::optional<Roll> roll_;

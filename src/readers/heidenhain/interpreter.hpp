@@ -136,7 +136,7 @@ class Interpreter {
     Result<Vec3> polar_target(const Words& words);
     Result<Vec3> rotary_target(const Words& words);
     Result<void> line(LineReader& in, bool polar);
-    Result<void> move_beside(const Words& words);
+    Result<void> move_parallel_axes(const Words& words);
     Result<void> line_with_vectors(LineReader& in);
     Result<void> pole(LineReader& in);
     Result<void> circle(LineReader& in);
@@ -351,7 +351,7 @@ class Interpreter {
 struct Interpreter::Words {
     std::vector<Item> items;
     std::optional<double> axis[3], increment[3];  // X Y Z in the frame, mm
-    std::optional<double> beside[3];              // U V W, mm
+    std::optional<double> parallel[3];            // U V W, mm
     std::optional<double> rotary[3], turn[3];     // A B C, deg: absolute, incremental
     std::optional<double> vector[3];              // TX TY TZ
     std::optional<double> polar_radius, polar_angle, polar_turn;

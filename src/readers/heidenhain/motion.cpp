@@ -236,7 +236,7 @@ Result<void> Interpreter::line(LineReader& in, bool polar) {
         path_.switch_tip_control(true, line_.number);
     }
     if (words->machine_position) {
-        if (auto done = move_beside(*words); !done) return done;
+        if (auto done = move_parallel_axes(*words); !done) return done;
         const auto to_rad = rotary_target(*words);
         return to_rad ? travel(*words, here(), {}, *to_rad) : std::unexpected(to_rad.error());
     }
@@ -250,14 +250,14 @@ Result<void> Interpreter::line(LineReader& in, bool polar) {
     if (!to_rad) return std::unexpected(to_rad.error());
     const auto to = polar ? polar_target(*words) : target(*words);
     if (!to) return std::unexpected(to.error());
-    if (auto done = move_beside(*words); !done) return done;
+    if (auto done = move_parallel_axes(*words); !done) return done;
     return travel(*words, *to, {}, *to_rad);
 }
 
 // U V W: axes beside X Y Z, such as the quill of a boring mill. At a place of the machine they count as 0.
-Result<void> Interpreter::move_beside(const Words& words) {
+Result<void> Interpreter::move_parallel_axes(const Words& words) {
     for (int k = 0; k < 3; ++k) {
-        const auto& mm = words.beside[k];
+        const auto& mm = words.parallel[k];
         if (!mm) continue;
         if (captured_ || words.side.value_or(side_) != 0) {
             return path_.refuse(place(words.first_column),
@@ -267,7 +267,7 @@ Result<void> Interpreter::move_beside(const Words& words) {
         if (auto done = close_contour(); !done) return done;
         contour_.leave();
         const double to_mm = words.machine_position ? 0 : *mm;
-        if (auto done = path_.place_beside(k, to_mm, place(words.first_column)); !done) return done;
+        if (auto done = path_.place_parallel(k, to_mm, place(words.first_column)); !done) return done;
     }
     return {};
 }

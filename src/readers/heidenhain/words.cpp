@@ -10,7 +10,7 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ", kBeside = "UVW", kRotary = "ABC";
+constexpr std::string_view kAxes = "XYZ", kParallel = "UVW", kRotary = "ABC";
 // Miscellaneous functions without effect on the path: stop, tool change, coolant, clamps, feed of rotary axes
 // and of circles, corner and look-ahead behaviour, limits of the machine.
 constexpr int kSilent[] = {0,   1,   6,   7,   8,   9,   25,  26,  27,  28,  90,  97,  98,  101, 103, 107,
@@ -80,9 +80,10 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         if (!incremental) mm += (mm - scale_centre_mm_[k]) * (scale_[k] - 1);
         mm *= (incremental ? scale_[k] : 1) * mirror_[k];
         (incremental ? words.increment : words.axis)[axis] = mm;
-    } else if (const std::size_t beside = place_of(kBeside, name); beside < 3 && item.value && own == "L") {
-        const double from_mm = incremental ? path_.beside_mm(static_cast<int>(beside)) : 0;
-        words.beside[beside] = from_mm + *item.value * unit_mm_;
+    } else if (const std::size_t parallel = place_of(kParallel, name);
+               parallel < 3 && item.value && own == "L") {
+        const double from_mm = incremental ? path_.parallel_mm(static_cast<int>(parallel)) : 0;
+        words.parallel[parallel] = from_mm + *item.value * unit_mm_;
     } else if (rotary < 3 && item.value) {
         if (auto good = in.in_range(kLimits.rotary_angle, *item.value, item.column); !good) return good;
         (incremental ? words.turn : words.rotary)[rotary] = item.value;

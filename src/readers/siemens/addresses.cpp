@@ -10,7 +10,7 @@
 namespace tribo::readers::siemens {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ", kBeside = "UVW", kRotary = "ABC", kCentres = "IJK";
+constexpr std::string_view kAxes = "XYZ", kParallel = "UVW", kRotary = "ABC", kCentres = "IJK";
 
 // Addresses without effect on the path: feeds of single axes and corners, smoothing, speeds, limits.
 constexpr std::string_view kSilent[] = {
@@ -179,8 +179,9 @@ Result<void> Interpreter::take_address(Cursor& in, const std::string& name, Amou
         words.linear[k] = amount;
         return {};
     }
-    if (const std::size_t k = kBeside.find(letter); k < 3 && (is_single || (is_extended && name[1] == '1'))) {
-        words.beside[k] = amount;
+    if (const std::size_t k = kParallel.find(letter);
+        k < 3 && (is_single || (is_extended && name[1] == '1'))) {
+        words.parallel[k] = amount;
         return {};
     }
     if (const std::size_t k = kRotary.find(letter); k < 3) {

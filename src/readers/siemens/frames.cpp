@@ -79,7 +79,7 @@ Result<void> Interpreter::transform(const Words& words) {
         const double value = kind == "TRANS" ? word->value * unit_mm_ : word->value;
         if (auto good = path_.in_range(limit, value, place(word->column)); !good) return good;
     }
-    for (const auto& word : words.beside) {
+    for (const auto& word : words.parallel) {
         if (!word || word->value == 0) continue;
         return path_.refuse(place(word->column), words.frame + " of U, V or W is not read",
                             "write their coordinates in the blocks");

@@ -157,7 +157,7 @@ class Interpreter : private SystemValues {
     Result<void> angled_target(const Words& words, Vec3& to);
     void assume_start();
     Result<void> leave_for_machine(const Words& words);
-    Result<void> move_beside(const Words& words);
+    Result<void> move_parallel_axes(const Words& words);
     Result<void> travel(const Words& words, Vec3 to, const std::optional<motion::Arc>& arc);
     Result<void> go(bool rapid, Vec3 to, const std::optional<motion::Arc>& arc, Vec3 to_rad);
     void check_start(bool rapid);

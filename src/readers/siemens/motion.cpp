@@ -31,7 +31,7 @@ Result<void> Interpreter::move(const Words& words) {
     Vec3 to;
     const auto known = find_target(words, to);
     if (!known) return std::unexpected(known.error());
-    if (auto done = move_beside(words); !done) return done;
+    if (auto done = move_parallel_axes(words); !done) return done;
     if (!*known) {
         path_.set_rotary(target_rad_);
         contour_.leave();
@@ -114,11 +114,11 @@ Result<bool> Interpreter::find_target(const Words& words, Vec3& to) {
 }
 
 // U V W: axes beside X Y Z, such as the quill of a boring mill.
-Result<void> Interpreter::move_beside(const Words& words) {
+Result<void> Interpreter::move_parallel_axes(const Words& words) {
     for (int k = 0; k < 3; ++k) {
-        const auto& word = words.beside[static_cast<std::size_t>(k)];
+        const auto& word = words.parallel[static_cast<std::size_t>(k)];
         if (!word) continue;
-        const double from = path_.beside_mm(k);
+        const double from = path_.parallel_mm(k);
         const bool adds =
             word->measure == Measure::incremental || (word->measure == Measure::modal && incremental_);
         const double to = word->value * unit_mm_ + (adds ? from : 0);
@@ -132,7 +132,7 @@ Result<void> Interpreter::move_beside(const Words& words) {
         }
         if (auto done = close_contour(); !done) return done;
         contour_.leave();
-        if (auto done = path_.place_beside(k, to, place(word->column)); !done) return done;
+        if (auto done = path_.place_parallel(k, to, place(word->column)); !done) return done;
     }
     return {};
 }
@@ -191,10 +191,10 @@ Result<void> Interpreter::leave_for_machine(const Words& words) {
     if (auto done = orient(words); !done) return done;
     path_.set_rotary(target_rad_);
     for (int k = 0; k < 3; ++k) {
-        if (!words.beside[static_cast<std::size_t>(k)]) continue;
-        if (auto done = path_.place_beside(k, 0, place(words.first_column)); !done) return done;
+        if (!words.parallel[static_cast<std::size_t>(k)]) continue;
+        if (auto done = path_.place_parallel(k, 0, place(words.first_column)); !done) return done;
     }
-    if (!words.has_linear() && !words.has_beside()) return {};
+    if (!words.has_linear() && !words.has_parallel()) return {};
     if (path_.first(kMachinePlace)) {
         path_.warn(line_number(),
                    "SUPA, G53, G74 and G75 go to places that only the machine knows: the path is left out "
@@ -208,7 +208,7 @@ Result<void> Interpreter::leave_for_machine(const Words& words) {
     }
     std::array<Known, 3> known{path_.known(0), path_.known(1), path_.known(2)};
     for (std::size_t k = 0; k < 3; ++k) {
-        if (words.linear[k] || words.beside[k]) known[k] = Known::lost;
+        if (words.linear[k] || words.parallel[k]) known[k] = Known::lost;
     }
     path_.put(path_.tip(), known, line_number());
     return {};

@@ -64,7 +64,7 @@ enum class Motion {
 
 struct Words {
     std::array<std::optional<Amount>, 3> linear, rotary;   // X Y Z, A B C
-    std::array<std::optional<Amount>, 3> beside;           // U V W
+    std::array<std::optional<Amount>, 3> parallel;         // U V W
     std::array<std::optional<Amount>, 3> centre, through;  // I J K, I1 J1 K1
     std::array<std::optional<double>, 3> vector;           // A3 B3 C3
     std::array<std::optional<double>, 3> angle;            // A2 B2 C2, deg
@@ -92,14 +92,14 @@ struct Words {
     int first_column = 1;
 
     bool has_linear() const { return linear[0] || linear[1] || linear[2]; }
-    bool has_beside() const { return beside[0] || beside[1] || beside[2]; }
+    bool has_parallel() const { return parallel[0] || parallel[1] || parallel[2]; }
     bool has_rotary() const { return rotary[0] || rotary[1] || rotary[2]; }
     bool has_vector() const { return vector[0] || vector[1] || vector[2]; }
     bool has_angle() const { return angle[0] || angle[1] || angle[2]; }
     bool has_polar() const { return polar_radius || polar_angle; }
     bool has_centre() const { return centre[0] || centre[1] || centre[2]; }
     bool moves() const {
-        return has_linear() || has_beside() || has_rotary() || has_vector() || has_angle() || has_polar() ||
+        return has_linear() || has_parallel() || has_rotary() || has_vector() || has_angle() || has_polar() ||
                has_centre() || opening || turns || direction;
     }
 };

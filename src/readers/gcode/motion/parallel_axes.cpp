@@ -10,7 +10,7 @@ namespace tribo::readers::gcode {
 namespace {
 
 constexpr char kLetters[] = "UVW";
-constexpr char kBeside[] = "XYZ";
+constexpr char kMain[] = "XYZ";
 
 std::string cause_of_refusal(const Command& command, const State& state, Output& output) {
     if (!output.writes_axis(1)) return "an increment of a lathe, in a program without Y";
@@ -31,7 +31,7 @@ std::string means(const Word& word, const std::string& cause) {
 
 std::string taken_as(int axis) {
     const std::string letter(1, kLetters[axis]);
-    return letter + " is taken as an axis parallel to " + kBeside[axis] +
+    return letter + " is taken as an axis parallel to " + kMain[axis] +
            ": the tip stands at the sum of both, and " + letter + " starts at 0";
 }
 
@@ -39,8 +39,8 @@ std::string taken_as(int axis) {
 
 bool has_parallel_move(const Command& command, const State& state) {
     return std::ranges::any_of(command.block().words, [&](const Word& word) {
-        const bool is_beside = word.letter >= 'U' && word.letter <= 'W' && command.has(word.letter);
-        return is_beside && (word.value != 0 || state.parallel.at_mm[word.letter - 'U'] != 0);
+        const bool is_parallel = word.letter >= 'U' && word.letter <= 'W' && command.has(word.letter);
+        return is_parallel && (word.value != 0 || state.parallel.at_mm[word.letter - 'U'] != 0);
     });
 }
 
