@@ -93,7 +93,7 @@ struct LiveChunk {
     // Drawn in a hurry: it comes again, exact, while the part stays as it is.
     bool rough = false;
     // Vertices are written as multiples of it, so that chunks meet exactly. 0: as 1/65535 of the longest edge
-    // of the mesh's box.
+    // of the mesh's box. Not read back.
     double step_mm = 0;
 };
 

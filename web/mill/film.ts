@@ -90,7 +90,8 @@ async function soundOf({ pictures, ends }: Filmed): Promise<Float32Array> {
   for (const name of readdirSync(BOWL)) putFile(mill, name, readFileSync(join(BOWL, name)));
   if (!openMill(mill, "bowl.toml")) throw new Error(textAt(mill, mill.mill_text()));
   const timeAt = (at: number) => {
-    const n = Math.max(pictures.findIndex((picture) => picture.at > at) - 1, 0);
+    const next = pictures.findIndex((picture) => picture.at > at);
+    const n = next < 0 ? pictures.length - 1 : Math.max(next - 1, 0);
     const [before, after] = [pictures[n]!, pictures[n + 1] ?? pictures[n]!];
     // A step back stands still.
     const speed = Math.max((after.time - before.time) / (after.at - before.at || 1), 0);
