@@ -37,6 +37,9 @@ class MachineRun {
     static constexpr const char* kTooManyPieces =
         "its rotary axes turn too far for one move: it would become more moves than fit";
     static constexpr const char* kFewerPieces = "split it, or correct its rotary words";
+    // A warning: on a machine that turns its table, parallel axes would lead the tool elsewhere.
+    static constexpr const char* kParallelInTiltedPlane =
+        "U, V or W does not stand at 0 while the plane tilts: its way stays along the axes of the stock";
 
     // Returns warnings: axes beyond their travel or speed, turns near a singular position, and a tip faster
     // than any machine, each with its first line.

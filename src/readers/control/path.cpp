@@ -270,6 +270,7 @@ void Path::switch_tip_control(bool on, int line) {
 }
 
 bool Path::tilt(const motion::WorkFrame& plane, bool keep_tip, int line, const std::optional<Vec3>& to_rad) {
+    if (plane.is_tilted() && parallel_mm_ != Vec3{}) warn(line, MachineRun::kParallelInTiltedPlane);
     if (!machine) {
         const bool turns = distance(axis_, plane.z) > 1e-12;
         frame = plane;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/math.hpp"
+#include "readers/control/path.hpp"
 #include "readers/gcode/motion/moves.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 
@@ -301,6 +302,8 @@ Result<void> begin_tilted_plane(Command& command, State& state, Output& output, 
     }
     state.preset_mm = {};
     state.tilt->frame = *plane;
+    if (plane->is_tilted() && state.parallel.at_mm != Vec3{})
+        output.warn(command.line(), MachineRun::kParallelInTiltedPlane);
     state.tilt->about_axis = code.tenths == 680;
     if (tip) state.tip_mm = plane->from_stock(*tip);
     if (!tip) lose_tip(state, command.line());
