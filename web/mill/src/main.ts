@@ -23,6 +23,7 @@ import { FrameCache } from "./sources/frame_cache.js";
 import { recall, remember } from "./page.js";
 import { listenToLook } from "./panels/look.js";
 import { listenToMeasure } from "./panels/measure.js";
+import { listenToGallery, listenToMoreLanes, listenToProgramSheet, listenToQuiz, toggles } from "./panels/openers.js";
 import { Parameters } from "./panels/parameters.js";
 import { Lanes } from "./lanes/lanes.js";
 import { Now } from "./panels/now.js";
@@ -508,25 +509,10 @@ setInterval(() => {
 }, 500);
 
 // ---- Panels
-function toggles(button: string, panel: string, opened?: () => void): void {
-  element(button).addEventListener("click", () => {
-    const box = element(panel);
-    box.hidden = !box.hidden;
-    element(button).setAttribute("aria-expanded", String(!box.hidden));
-    if (!box.hidden) opened?.();
-  });
-}
 toggles("show-panel", "panel", () => void showSetUp());
 element("show-panel").addEventListener("click", () => card.tellStock());
-element("show-program").addEventListener("click", () => {
-  const reads = document.body.classList.toggle("reading");
-  element("show-program").setAttribute("aria-expanded", String(reads));
-});
-element("more-lanes").addEventListener("click", () => {
-  const all = element("more-lanes").getAttribute("aria-pressed") !== "true";
-  element("more-lanes").setAttribute("aria-pressed", String(all));
-  lanes.showAll(all);
-});
+listenToProgramSheet();
+listenToMoreLanes((all) => lanes.showAll(all));
 // Panels leave the rest of the window to the part.
 scene.keepFree(() => {
   const { x, y, width, height } = element("stage").getBoundingClientRect();
@@ -545,32 +531,8 @@ toggles("show-plots", "plots", async () => {
 listenToKeep(scene, history, say, momentNow);
 listenToVideo(scene, sound, { wake: hear, name: () => fileName(history, "webm"), say });
 
-// ---- Learn by ear
-let learn: import("./learn/learn.js").Learn | undefined;
-async function openQuiz(): Promise<void> {
-  transport.pause();
-  try {
-    const { Learn } = await import("./learn/learn.js");
-    learn ??= new Learn((cut) => void mill(cut));
-    learn.open();
-  } catch (error) {
-    say(t("The quiz does not open: {why}", { why: wordsOf(error) }));
-  }
-}
-for (const id of ["learn", "learn-begin"]) element(id).addEventListener("click", () => void openQuiz());
-
-// ---- Examples
-let gallery: import("./gallery/gallery.js").Gallery | undefined;
-async function openGallery(): Promise<void> {
-  try {
-    const { Gallery } = await import("./gallery/gallery.js");
-    gallery ??= new Gallery(mill, say);
-    gallery.open();
-  } catch (error) {
-    say(t("The examples do not open: {why}", { why: wordsOf(error) }));
-  }
-}
-for (const id of ["examples", "show-examples"]) element(id).addEventListener("click", () => void openGallery());
+listenToQuiz({ mill, pause: () => transport.pause(), say });
+listenToGallery({ mill, say });
 
 listenToFiles(open);
 
