@@ -55,6 +55,19 @@ Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
     return {s, q, {}, true};
 }
 
+// The foot point where the sides that touch `on_mm`, a point of the surface, hold the point. The last step,
+// from `on_mm` to `foot_mm`, leaves the surface by its square over the radius of the bend only.
+Foot foot_at(Vec3 foot_mm, Vec3 on_mm, Vec3 point_mm, const HalfSpaces& sides) {
+    HalfSpaces touching;
+    for (int i = 0; i < sides.count; ++i) {
+        const HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
+        if (side.above(on_mm) > -kOnSurface) touching.put(side, kAlike);
+    }
+    const double way = distance(point_mm, foot_mm);
+    const std::uint32_t piece = touching.count > 0 ? touching.side[0].piece : 0;
+    return {{way, (point_mm - foot_mm) / way, piece}, foot_mm, touching, true};
+}
+
 // Until the pieces in `sides` have led to a place that is not on the surface, the field is not asked for
 // others.
 Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm,
@@ -63,7 +76,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
     bool ask = sides.count == 0;
     bool there = !ask;  // q is the nearest point of all sides, not a point on the way to it
     for (int n = 0; n < kMostRounds; ++n) {
-        double above_mm = 0;
+        double above_mm = -kAnyStep;  // of the intersection of all sides
         for (int i = 0; i < sides.count; ++i) {
             HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
             const SurfaceSample t = field.sample_piece(side.piece, q);
@@ -76,21 +89,19 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
                    squared_length(next - q) <= 2 * kStill * distance(point_mm, q) + kOnSurface * kOnSurface;
         };
         Vec3 next = sides.nearest(point_mm);
-        if (ask || (above_mm <= kOnSurface && is_still(next))) {
+        const bool held = !ask && std::abs(above_mm) <= kOnSurface && is_still(next);
+        // A piece that is not known yet only takes material away. A place that is still on the surface stays
+        // the nearest one.
+        if (held && distance(point_mm, next) > kOnSurface && std::abs(field.distance_mm(q)) <= kOnSurface)
+            return foot_at(next, q, point_mm, sides);
+        if (ask || held) {
             const SurfaceSample s = field.sample(q);
             sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
             next = sides.nearest(point_mm);
             // On the surface, and no nearer point exists with the present sides.
             if (std::abs(s.distance_mm) <= kOnSurface && is_still(next)) {
-                // The last step leaves the surface by its square over the radius of the bend only.
-                const double way = distance(point_mm, next);
-                if (way <= kOnSurface) return {s, q, {}, true};
-                HalfSpaces touching;
-                for (int i = 0; i < sides.count; ++i) {
-                    const HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
-                    if (side.above(q) > -kOnSurface) touching.put(side, kAlike);
-                }
-                return {{way, (point_mm - next) / way, s.piece}, next, touching, true};
+                if (distance(point_mm, next) <= kOnSurface) return {s, q, {}, true};
+                return foot_at(next, q, point_mm, sides);
             }
             ask = true;
         }
