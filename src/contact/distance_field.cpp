@@ -68,6 +68,18 @@ Foot foot_at(Vec3 foot_mm, Vec3 on_mm, Vec3 point_mm, const HalfSpaces& sides) {
     return {{way, (point_mm - foot_mm) / way, piece}, foot_mm, touching, true};
 }
 
+// Along an edge that bends, each step of the search is one share of the step before. Returns the sum of this
+// step and all that would follow (Aitken 1926), or the step itself where it does not go on like the last one.
+Vec3 all_steps(Vec3 step, Vec3 last) {
+    constexpr double kLeastShare = 0.05, kMostShare = 0.8, kAside = 0.1;
+    const double square = squared_length(last);
+    if (square == 0) return step;
+    const double share = dot(step, last) / square;
+    const bool goes_on = share > kLeastShare && share < kMostShare &&
+                         squared_length(step - share * last) < kAside * kAside * squared_length(step);
+    return goes_on ? step / (1 - share) : step;
+}
+
 // Until the pieces in `sides` have led to a place that is not on the surface, the field is not asked for
 // others.
 Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm,
@@ -75,6 +87,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
     Vec3 q = start_mm;
     bool ask = sides.count == 0;
     bool there = !ask;  // q is the nearest point of all sides, not a point on the way to it
+    Vec3 last;
     for (int n = 0; n < kMostRounds; ++n) {
         double above_mm = -kAnyStep;  // of the intersection of all sides
         for (int i = 0; i < sides.count; ++i) {
@@ -105,9 +118,11 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             }
             ask = true;
         }
-        const double step = distance(next, q);
-        there = step <= longest_mm;
-        q = there ? next : q + (longest_mm / step) * (next - q);
+        const Vec3 way = next - q, step = all_steps(way, last);
+        const double size = length(step);
+        there = size <= longest_mm;
+        q += there ? step : (longest_mm / size) * step;
+        last = way == step ? way : Vec3{};
     }
     return {{0, {0, 0, 1}, 0}, q, {}};
 }
