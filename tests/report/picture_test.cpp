@@ -14,6 +14,7 @@
 #include <stb/stb_image.h>
 
 #include "files/scratch.hpp"
+#include "report/picture/studio.hpp"
 
 namespace tribo::report {
 namespace {
@@ -132,6 +133,112 @@ TEST(Picture, of_a_line_is_as_long_and_wide_as_the_line) {
         const double area = opaque_pixels(image), length = 1.2 * px_per_mm;
         EXPECT_NEAR(area, length * 5 + std::numbers::pi * 2.5 * 2.5, 0.01 * area);
     }
+}
+
+// A square of `size` about a point, at a height.
+void add_square(TriangleMesh& mesh, Vec3 middle, double size) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    for (const auto& [u, v] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+        mesh.positions.push_back(point(middle.x + u * size, middle.y + v * size, middle.z));
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+}
+
+// What paint shows of the sun is even over a plane, but for the shadow.
+TEST(Picture, shows_the_shadow_of_what_is_above_where_the_sun_throws_it) {
+    TriangleMesh mesh;
+    add_square(mesh, {0, 0, 0}, 20);
+    PictureOptions options{.width = 200, .height = 200, .towards_viewer = {0, 0, 1}};
+    const std::vector<std::array<std::uint8_t, 3>> white(4, {200, 200, 200});
+    options.triangle_colours = white;
+    const files::Image bare = draw_part(mesh, {}, options);
+    const double high = 4;
+    add_square(mesh, {0, 0, high}, 3);
+    const files::Image both = draw_part(mesh, {}, options);
+    const Vec3 sun = Studio::to_sun(), shadow = (-high / sun.z) * sun;  // its middle, from above the square
+    // 200 pixels show 20 mm and the margins, seen from 40 mm and more: the square above hides its own place.
+    const auto at = [](double x, double y) {
+        return std::pair{static_cast<int>(100 + 9.2 * x), static_cast<int>(100 - 9.2 * y)};
+    };
+    const auto [sx, sy] = at(shadow.x, shadow.y);
+    const auto [lx, ly] = at(-shadow.x, -shadow.y);
+    EXPECT_LT(channel(both, sx, sy, 1), channel(bare, sx, sy, 1) - 15);
+    EXPECT_NEAR(channel(both, lx, ly, 1), channel(bare, lx, ly, 1), 1);
+}
+
+TEST(Picture, stands_on_ground_that_has_its_shadow_on_the_side_away_from_the_sun) {
+    TriangleMesh mesh;
+    add_square(mesh, {0, 0, 0}, 20);
+    add_square(mesh, {0, 0, 6}, 20);
+    const PictureOptions options{.width = 240, .height = 240, .towards_viewer = {0, 0, 1}, .on_ground = true};
+    const files::Image image = draw_part(mesh, {}, options);
+    const Vec3 sun = Studio::to_sun();
+    double along = 0, weight = 0, darkest = 0;
+    for (int y = 0; y < 240; ++y) {
+        for (int x = 0; x < 240; ++x) {
+            const int a = channel(image, x, y, 3);
+            if (a == 0 || channel(image, x, y, 0) != 0) continue;  // neither ground nor the part
+            darkest = std::max(darkest, a / 255.0);
+            along += a * ((x - 120) * sun.x - (y - 120) * sun.y);
+            weight += a;
+        }
+    }
+    ASSERT_GT(weight, 0);
+    EXPECT_LT(along / weight, 0);
+    EXPECT_NEAR(darkest, 0.255, 0.01);  // 0.3 of black where 0.85 of the sun is gone
+    for (int n = 0; n < 240; ++n) {     // the frame has room for it
+        EXPECT_EQ(channel(image, n, 0, 3), 0);
+        EXPECT_EQ(channel(image, n, 239, 3), 0);
+        EXPECT_EQ(channel(image, 0, n, 3), 0);
+        EXPECT_EQ(channel(image, 239, n, 3), 0);
+    }
+}
+
+// Along grooves of 0.02 mm, 0.5 mm wide, one part is lighter than the other.
+TEST(Picture, shows_grooves_of_two_hundredths_of_a_millimetre) {
+    TriangleMesh mesh;
+    const int count = 400;
+    for (int n = 0; n <= count; ++n) {
+        const double y = 10.0 * n / count, z = 0.01 * std::cos(2 * std::numbers::pi * y / 0.5);
+        mesh.positions.push_back(point(0, y, z));
+        mesh.positions.push_back(point(10, y, z));
+    }
+    for (std::uint32_t n = 0; n < count; ++n) {
+        mesh.triangles.push_back({2 * n, 2 * n + 1, 2 * n + 3});
+        mesh.triangles.push_back({2 * n, 2 * n + 3, 2 * n + 2});
+    }
+    const files::Image image = draw_part(mesh, {}, {.width = 600, .height = 450});
+    std::vector<int> column;
+    for (int y = 0; y < 450; ++y)
+        if (channel(image, 300, y, 3) == 255) column.push_back(channel(image, 300, y, 1));
+    ASSERT_GT(column.size(), 100u);
+    std::sort(column.begin(), column.end());
+    EXPECT_GT(column[column.size() * 9 / 10] - column[column.size() / 10], 20);
+}
+
+RC_GTEST_PROP(Studio, has_no_seams, ()) {
+    const static Studio studio;
+    const auto coordinate = [] { return *rc::gen::inRange(-1000, 1001) / 1000.0; };
+    const Vec3 to_viewer = normalized(Vec3{coordinate(), coordinate(), coordinate()}, {0, 0, 1});
+    const Vec3 aside = normalized(cross(to_viewer, Vec3{0.3, 0.7, 0.2}), {1, 0, 0});
+    const Vec3 a = normalized(to_viewer + *rc::gen::inRange(0, 1500) / 1000.0 * aside),
+               b = normalized(a + 2e-4 * aside);
+    for (const Finish finish : {Finish::metal, Finish::paint}) {
+        const Rgb seen = studio.on(finish, {0.6F, 0.6F, 0.6F}, a, to_viewer, 0),
+                  beside = studio.on(finish, {0.6F, 0.6F, 0.6F}, b, to_viewer, 0);
+        RC_ASSERT(std::abs(seen.g - beside.g) < 0.02);
+        RC_ASSERT(seen.g >= 0 && seen.g < 6);  // no brighter than the brightest panel
+    }
+}
+
+TEST(Studio, tones_dark_light_but_little_and_keeps_all_below_white) {
+    for (float v = 0; v < 20; v = 1.3F * v + 0.01F) {
+        const Rgb grey = toned({v, v, v});
+        EXPECT_GE(grey.g, 0);
+        EXPECT_LT(grey.g, 1);
+        EXPECT_EQ(grey.r, grey.b);
+    }
+    EXPECT_NEAR(toned({0.5F, 0.5F, 0.5F}).g, 0.46F, 1e-6F);  // less the 0.04 that a dielectric would add
 }
 
 TEST(Picture, of_nothing_is_transparent) {

@@ -277,7 +277,7 @@ FileResult<void> RenderOutputs::write_report(const session::MillSession& session
                     std::to_string(session.setup().cutters.size()) +
                     (session.setup().cutters.size() == 1 ? " cutter" : " cutters");
     data.summary = summary;
-    data.picture_png = files::png_bytes(report::draw_part(mesh));
+    data.picture_png = files::png_bytes(report::draw_part(mesh, {}, {.on_ground = true}));
     data.part = report_part(session, summary, mesh);
     mesh = {};
     data.rows = report::thin_rows(report_.rows, 4000);

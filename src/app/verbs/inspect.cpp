@@ -193,6 +193,7 @@ int inspect(const Call& call) {
     if (!call.picture.empty()) {
         if (const auto checked = check_outputs({call.picture}); !checked) return report(checked.error());
         report::PictureOptions options;
+        options.on_ground = !found->mesh.triangles.empty();
         options.triangle_colours = found->colours;
         const files::Image image = report::draw_part(found->mesh, found->lines, options);
         if (const auto written = files::write_png(call.picture, image); !written)

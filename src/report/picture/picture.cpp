@@ -8,20 +8,17 @@
 #include <limits>
 
 #include "base/math.hpp"
+#include "report/picture/disc_points.hpp"
+#include "report/picture/raster.hpp"
+#include "report/picture/studio.hpp"
+#include "report/picture/sun_shadow.hpp"
 
 namespace tribo::report {
 namespace {
 
 constexpr int kSamples = 2;            // per pixel along each side
-constexpr int kSubpixel = 256;         // steps of a vertex between two samples
 constexpr double kTanHalfView = 0.24;  // a portrait lens: 27 degrees, little distortion
-constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
-constexpr double kLineLift = 2e-3;  // share of the distance by which lines are in front of the surface
-
-// Projection of a point: sample coordinates, and 1 / depth along the view, which is linear on the screen.
-struct Seen {
-    double x = 0, y = 0, inverse_depth = 0;
-};
+constexpr double kLineLift = 2e-3;     // share of the distance by which lines are in front of the surface
 
 struct Camera {
     Vec3 right, up, back;  // unit; back points to the viewer
@@ -33,6 +30,11 @@ struct Camera {
         const double inverse = 1 / -dot(v, back);
         return {centre_x + scale * dot(v, right) * inverse, centre_y - scale * dot(v, up) * inverse, inverse};
     }
+    // From the eye through a sample, 1 deep.
+    Vec3 ray(double x, double y) const {
+        return ((x - centre_x) / scale) * right - ((y - centre_y) / scale) * up - back;
+    }
+    double mm_per_sample(double depth_mm) const { return depth_mm / scale; }
 };
 
 // Places the eye so that all points are in the frame and fill it.
@@ -71,87 +73,6 @@ Camera frame(const std::vector<Point3f>& points, const PictureOptions& options) 
     return camera;
 }
 
-// For each sample the nearest triangle and its depth.
-struct Buffer {
-    int width = 0, height = 0;  // samples
-    std::vector<float> inverse_depth;
-    std::vector<std::uint32_t> triangle;
-
-    std::size_t at(int x, int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-    }
-};
-
-struct FixedPoint {
-    std::int64_t x, y;
-};
-
-// Twice the area of a, b, p in subpixel units, positive if p is right of a -> b (y points down).
-std::int64_t side(FixedPoint a, FixedPoint b, FixedPoint p) {
-    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
-
-// Top-left rule: a sample exactly on a common edge belongs to one of the two triangles.
-bool owns_edge(FixedPoint a, FixedPoint b) {
-    return b.y < a.y || (b.y == a.y && b.x > a.x);
-}
-
-// Edge functions on a grid of 1/256 sample are exact in 64 bits, so neighbours have no gaps and no overlaps.
-void fill(Buffer& buffer, std::uint32_t index, Seen a, Seen b, Seen c) {
-    const auto fixed = [](Seen s) {
-        return FixedPoint{static_cast<std::int64_t>(std::floor(s.x * kSubpixel + 0.5)),
-                          static_cast<std::int64_t>(std::floor(s.y * kSubpixel + 0.5))};
-    };
-    FixedPoint p[3] = {fixed(a), fixed(b), fixed(c)};
-    double depth[3] = {a.inverse_depth, b.inverse_depth, c.inverse_depth};
-    std::int64_t area = side(p[0], p[1], p[2]);
-    if (area == 0) return;
-    if (area < 0) {
-        std::swap(p[1], p[2]);
-        std::swap(depth[1], depth[2]);
-        area = -area;
-    }
-    // Samples are at half-integer positions.
-    const auto first = [](std::int64_t v) { return (v + kSubpixel / 2 - 1) / kSubpixel; };
-    const auto last = [](std::int64_t v) { return (v - kSubpixel / 2) / kSubpixel; };
-    const auto [x_min, x_max] = std::minmax({p[0].x, p[1].x, p[2].x});
-    const auto [y_min, y_max] = std::minmax({p[0].y, p[1].y, p[2].y});
-    const int x0 = static_cast<int>(std::max<std::int64_t>(0, first(x_min)));
-    const int x1 = static_cast<int>(std::min<std::int64_t>(buffer.width - 1, last(x_max)));
-    const int y0 = static_cast<int>(std::max<std::int64_t>(0, first(y_min)));
-    const int y1 = static_cast<int>(std::min<std::int64_t>(buffer.height - 1, last(y_max)));
-    if (x0 > x1 || y0 > y1) return;
-
-    const FixedPoint start{std::int64_t{x0} * kSubpixel + kSubpixel / 2,
-                           std::int64_t{y0} * kSubpixel + kSubpixel / 2};
-    std::int64_t row[3], step_x[3], step_y[3];
-    double weight[3];
-    for (int i = 0; i < 3; ++i) {
-        const FixedPoint from = p[(i + 1) % 3], to = p[(i + 2) % 3];  // the edge opposite to corner i
-        row[i] = side(from, to, start) - (owns_edge(from, to) ? 0 : 1);
-        step_x[i] = -(to.y - from.y) * kSubpixel;
-        step_y[i] = (to.x - from.x) * kSubpixel;
-        weight[i] = depth[i] / static_cast<double>(area);
-    }
-    for (int y = y0; y <= y1; ++y) {
-        std::int64_t e[3] = {row[0], row[1], row[2]};
-        std::size_t at = buffer.at(x0, y);
-        for (int x = x0; x <= x1; ++x, ++at) {
-            if ((e[0] | e[1] | e[2]) >= 0) {
-                const double d = static_cast<double>(e[0]) * weight[0] +
-                                 static_cast<double>(e[1]) * weight[1] +
-                                 static_cast<double>(e[2]) * weight[2];
-                if (static_cast<float>(d) > buffer.inverse_depth[at]) {
-                    buffer.inverse_depth[at] = static_cast<float>(d);
-                    buffer.triangle[at] = index;
-                }
-            }
-            for (int i = 0; i < 3; ++i) e[i] += step_x[i];
-        }
-        for (int i = 0; i < 3; ++i) row[i] += step_y[i];
-    }
-}
-
 float to_linear(float srgb) {
     return srgb <= 0.04045F ? srgb / 12.92F : static_cast<float>(math::pow((srgb + 0.055) / 1.055, 2.4));
 }
@@ -173,31 +94,6 @@ class Encoder {
   private:
     static constexpr int kSteps = 8191;
     std::array<std::uint8_t, kSteps + 1> table_ = {};
-};
-
-// Lights: a low key light from the left, so that shallow grooves are visible; a soft light from the right; a
-// sky.
-class Lights {
-  public:
-    explicit Lights(const Camera& camera)
-        : key_(normalized(-0.90 * camera.right + 0.25 * camera.back + Vec3{0, 0, 0.42})),
-          fill_(normalized(0.9 * camera.right + 0.2 * camera.up + 0.6 * camera.back)),
-          half_(normalized(key_ + camera.back)) {}
-
-    struct Light {
-        float diffuse, shine;
-    };
-    Light on(Vec3 normal) const {
-        const double key = std::max(0.0, dot(normal, key_)), soft = std::max(0.0, dot(normal, fill_));
-        const double sky = 0.5 + 0.5 * normal.z;
-        double shine = std::max(0.0, dot(normal, half_));
-        for (int i = 0; i < 5; ++i) shine *= shine;  // the 32nd power
-        return {static_cast<float>(0.78 * key + 0.22 * soft + 0.10 + 0.20 * sky),
-                static_cast<float>(0.22 * shine)};
-    }
-
-  private:
-    Vec3 key_, fill_, half_;
 };
 
 // Returns the normal of the triangle at a sample, towards the viewer. It is interpolated if the mesh has
@@ -223,45 +119,129 @@ Vec3 normal_at(const TriangleMesh& mesh, const Triangle& t, const Camera& camera
     return flip ? -normal : normal;
 }
 
-Colour linear(const std::array<std::uint8_t, 3>& srgb) {
-    Colour out{};
-    for (std::size_t k = 0; k < 3; ++k) out[k] = to_linear(static_cast<float>(srgb[k]) / 255);
-    return out;
-}
-
 // Light and opacity of one pixel, premultiplied.
 struct Pixel {
     float r = 0, g = 0, b = 0, a = 0;
 };
 
-std::vector<Pixel> shade(const TriangleMesh& mesh, const Camera& camera, const std::vector<Seen>& seen,
-                         const Buffer& buffer, const PictureOptions& options) {
-    const Lights lights(camera);
-    const Colour base{to_linear(options.colour[0]), to_linear(options.colour[1]),
-                      to_linear(options.colour[2])};
-    constexpr float kShare = 1.0F / (kSamples * kSamples);
-    std::vector<Pixel> pixels(static_cast<std::size_t>(options.width) *
-                              static_cast<std::size_t>(options.height));
-    for (int y = 0; y < buffer.height; ++y) {
-        for (int x = 0; x < buffer.width; ++x) {
-            const std::uint32_t index = buffer.triangle[buffer.at(x, y)];
-            if (index == kNothing) continue;
-            const Colour own =
-                options.triangle_colours.empty() ? base : linear(options.triangle_colours[index]);
-            const Lights::Light light =
-                lights.on(normal_at(mesh, mesh.triangles[index], camera, seen, x + 0.5, y + 0.5));
-            Pixel& pixel =
-                pixels[static_cast<std::size_t>(y / kSamples) * static_cast<std::size_t>(options.width) +
-                       static_cast<std::size_t>(x / kSamples)];
-            // Clip before taking the mean; otherwise the edge of a highlight would have steps.
-            pixel.r += kShare * std::min(1.0F, own[0] * light.diffuse + light.shine);
-            pixel.g += kShare * std::min(1.0F, own[1] * light.diffuse + light.shine);
-            pixel.b += kShare * std::min(1.0F, own[2] * light.diffuse + light.shine);
+const Studio& studio() {
+    static const Studio studio;
+    return studio;
+}
+
+// Paints what the buffer holds. A pixel whose samples are of one triangle is shaded once.
+class Painter {
+  public:
+    Painter(const TriangleMesh& mesh, const Camera& camera, const std::vector<Seen>& seen,
+            const Buffer& buffer, const SunShadow& shadow, const PictureOptions& options)
+        : mesh_(mesh), camera_(camera), seen_(seen), buffer_(buffer), shadow_(shadow), options_(options) {
+        metal_ = {to_linear(options.colour[0]), to_linear(options.colour[1]), to_linear(options.colour[2])};
+        for (std::size_t k = 0; k < linear_.size(); ++k) linear_[k] = to_linear(static_cast<float>(k) / 255);
+    }
+
+    std::vector<Pixel> paint() const {
+        std::vector<Pixel> pixels;
+        pixels.reserve(static_cast<std::size_t>(options_.width) * static_cast<std::size_t>(options_.height));
+        for (int y = 0; y < options_.height; ++y)
+            for (int x = 0; x < options_.width; ++x) pixels.push_back(pixel(x, y));
+        return pixels;
+    }
+
+  private:
+    static constexpr float kShare = 1.0F / (kSamples * kSamples);
+
+    Pixel pixel(int px, int py) const {
+        std::array<std::uint32_t, kSamples * kSamples> triangles;
+        std::size_t count = 0;
+        for (int y = 0; y < kSamples; ++y)
+            for (int x = 0; x < kSamples; ++x)
+                triangles[count++] = buffer_.triangle[buffer_.at(px * kSamples + x, py * kSamples + y)];
+        const bool one = std::all_of(triangles.begin(), triangles.end(),
+                                     [&](std::uint32_t t) { return t == triangles[0]; });
+        Pixel pixel;
+        if (one && triangles[0] != kNothing) {
+            const Rgb light = shade(triangles[0], px * kSamples, py * kSamples, 0.5 * kSamples);
+            return {light.r, light.g, light.b, 1};
+        }
+        for (std::size_t n = 0; n < count && !one; ++n) {
+            if (triangles[n] == kNothing) continue;
+            const int x = px * kSamples + static_cast<int>(n) % kSamples,
+                      y = py * kSamples + static_cast<int>(n) / kSamples;
+            const Rgb light = shade(triangles[n], x, y, 0.5);
+            pixel.r += kShare * light.r;
+            pixel.g += kShare * light.g;
+            pixel.b += kShare * light.b;
             pixel.a += kShare;
         }
+        if (options_.on_ground) pixel.a += (1 - pixel.a) * ground(px, py);
+        return pixel;
     }
-    return pixels;
-}
+
+    // Opacity of the shadow on the ground.
+    float ground(int px, int py) const {
+        constexpr float kOpacity = 0.3F;
+        const Vec3 ray = camera_.ray((px + 0.5) * kSamples, (py + 0.5) * kSamples);
+        const double deep = (shadow_.ground_mm() - camera_.eye.z) / ray.z;
+        if (!(deep > 0) || !std::isfinite(deep)) return 0;
+        return kOpacity * (1 - shadow_.light(camera_.eye + deep * ray, {0, 0, 1}));
+    }
+
+    // At `middle` samples to the right of and below a sample of the triangle.
+    Rgb shade(std::uint32_t triangle, int x, int y, double middle) const {
+        const Triangle& t = mesh_.triangles[triangle];
+        const Vec3 normal = normal_at(mesh_, t, camera_, seen_, x + middle, y + middle);
+        const Vec3 place = place_at(x, y), to_viewer = normalized(camera_.eye - place, camera_.back);
+        Rgb colour = metal_;
+        Finish finish = Finish::metal;
+        if (!options_.triangle_colours.empty()) {
+            const auto& own = options_.triangle_colours[triangle];
+            colour = {linear_[own[0]], linear_[own[1]], linear_[own[2]]};
+            finish = Finish::paint;
+        }
+        const Rgb light = studio().on(finish, colour, normal, to_viewer, shadow_.light(place, normal));
+        const float open = openness(x, y, place, normal);
+        const Rgb out = toned({open * light.r, open * light.g, open * light.b});
+        return {std::min(out.r, 1.0F), std::min(out.g, 1.0F), std::min(out.b, 1.0F)};
+    }
+
+    Vec3 place_at(int x, int y) const {
+        const double deep = 1 / static_cast<double>(buffer_.nearness[buffer_.at(x, y)]);
+        return camera_.eye + deep * camera_.ray(x + 0.5, y + 0.5);
+    }
+
+    // The share of the sky that neighbours within some pixels leave free (after McGuire et al. 2011, Alchemy
+    // obscurance): with it grooves of some hundredths of a millimetre are seen.
+    float openness(int x, int y, Vec3 place, Vec3 normal) const {
+        constexpr double kReach = 20 * kSamples;  // samples
+        const double depth = 1 / static_cast<double>(buffer_.nearness[buffer_.at(x, y)]),
+                     mm = camera_.mm_per_sample(depth), radius = kReach * mm;
+        double hidden = 0;
+        for (const Vec3 way : around_) {
+            const int u = x + static_cast<int>(std::lround(kReach * way.x)),
+                      v = y + static_cast<int>(std::lround(kReach * way.y));
+            if (u < 0 || v < 0 || u >= buffer_.width || v >= buffer_.height ||
+                buffer_.triangle[buffer_.at(u, v)] == kNothing)
+                continue;
+            const Vec3 to = place_at(u, v) - place;
+            const double square = squared_length(to),
+                         near = std::clamp(1 - square / (4 * radius * radius), 0.0, 1.0);
+            hidden += near * std::max(0.0, dot(to, normal) - 0.3 * kSamples * mm) /
+                      (square + 0.04 * radius * radius);
+        }
+        return static_cast<float>(
+            std::clamp(1 - 1.1 * radius * hidden / static_cast<double>(around_.size()), 0.25, 1.0));
+    }
+
+    const TriangleMesh& mesh_;
+    const Camera& camera_;
+    const std::vector<Seen>& seen_;
+    const Buffer& buffer_;
+    const SunShadow& shadow_;
+    const PictureOptions& options_;
+    Rgb metal_;
+    std::array<float, 256> linear_;  // light of the bytes of a colour
+    std::array<Vec3, 12> around_ = disc_points<12>();
+};
 
 // The columns of row `y` (relative to the start of a line) that may be within `reach` of the line.
 struct Columns {
@@ -291,9 +271,8 @@ void draw_segment(std::vector<Pixel>& pixels, const Buffer& buffer, const Pictur
             const double t = squared > 0 ? std::clamp((px * dx + py * dy) / squared, 0.0, 1.0) : 0.0;
             const double away = std::sqrt((px - t * dx) * (px - t * dx) + (py - t * dy) * (py - t * dy));
             const float cover = static_cast<float>(std::clamp(reach - away, 0.0, 1.0));
-            const double depth =
-                (a.inverse_depth + t * (b.inverse_depth - a.inverse_depth)) * (1 + kLineLift);
-            if (cover <= 0 || depth < buffer.inverse_depth[buffer.at(x * kSamples, y * kSamples)]) continue;
+            const double depth = (a.nearness + t * (b.nearness - a.nearness)) * (1 + kLineLift);
+            if (cover <= 0 || depth < buffer.nearness[buffer.at(x * kSamples, y * kSamples)]) continue;
             Pixel& pixel = pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(options.width) +
                                   static_cast<std::size_t>(x)];
             const float s = static_cast<float>(t), keep = 1 - cover;
@@ -321,25 +300,29 @@ files::Image draw_part(const TriangleMesh& mesh, const std::vector<PictureLine>&
                       static_cast<std::size_t>(image.height));
     if (mesh.positions.empty()) return image;
 
-    const Camera camera = frame(mesh.positions, options);
+    const SunShadow shadow(mesh);
+    std::vector<Point3f> framed = mesh.positions;
+    if (options.on_ground) {
+        for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+            const Vec3 p = shadow.on_ground(mesh.position(i));
+            framed.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        }
+    }
+    const Camera camera = frame(framed, options);
     std::vector<Seen> seen(mesh.positions.size());
     for (std::uint32_t i = 0; i < seen.size(); ++i) seen[i] = camera.see(mesh.position(i));
 
-    Buffer buffer{options.width * kSamples, options.height * kSamples, {}, {}};
-    const std::size_t samples =
-        static_cast<std::size_t>(buffer.width) * static_cast<std::size_t>(buffer.height);
-    buffer.inverse_depth.assign(samples, 0);
-    buffer.triangle.assign(samples, kNothing);
+    Buffer buffer(options.width * kSamples, options.height * kSamples);
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const Triangle& t = mesh.triangles[i];
         fill(buffer, i, seen[t[0]], seen[t[1]], seen[t[2]]);
     }
 
-    std::vector<Pixel> pixels = shade(mesh, camera, seen, buffer, options);
+    std::vector<Pixel> pixels = Painter(mesh, camera, seen, buffer, shadow, options).paint();
     for (const PictureLine& line : lines) {
         for (std::size_t i = 1; i < line.points_mm.size(); ++i) {
             const Seen a = camera.see(line.points_mm[i - 1]), b = camera.see(line.points_mm[i]);
-            if (!(a.inverse_depth > 0) || !(b.inverse_depth > 0)) continue;  // behind the viewer
+            if (!(a.nearness > 0) || !(b.nearness > 0)) continue;  // behind the viewer
             draw_segment(pixels, buffer, options, a, b, linear_colour(line, i - 1), linear_colour(line, i),
                          line.width_px);
         }

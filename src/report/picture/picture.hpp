@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A still picture of a part, rendered on the processor: three-quarter view in perspective, two lights,
-// antialiased, optionally with the tool path as a line. For reports, READMEs and `inspect --picture`; needs
-// no window and no GPU.
+// A still picture of a part, rendered on the processor: three-quarter view in perspective, metal in a studio
+// (studio.hpp), antialiased, optionally with the tool path as a line. For reports, READMEs and `inspect
+// --picture`; needs no window and no GPU.
 #pragma once
 
 #include <array>
@@ -26,11 +26,12 @@ struct PictureLine {
 };
 
 struct PictureOptions {
-    int width = 1200, height = 900;        // pixels, 1..8192
-    Vec3 towards_viewer{0.55, -1.0, 0.9};  // from the part; length > 0
-    Colour colour{0.70F, 0.73F, 0.77F};
-    double margin = 0.04;  // of the shorter side, free around the part
-    // One per triangle, instead of `colour`; sRGB. Empty: all triangles have `colour`.
+    int width = 1200, height = 900;          // pixels, 1..8192
+    Vec3 towards_viewer{0.42, -0.95, 0.62};  // from the part; length > 0
+    Colour colour{0.81F, 0.82F, 0.835F};     // of machined metal
+    bool on_ground = false;  // the part throws a shadow on ground below it, and the frame has room for that
+    double margin = 0.04;    // of the shorter side, free around the part
+    // One per triangle, instead of metal of `colour`: dull paint; sRGB. Empty: all triangles are metal.
     std::span<const std::array<std::uint8_t, 3>> triangle_colours = {};
 };
 
