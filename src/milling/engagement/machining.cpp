@@ -389,7 +389,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
         }
         Sweep& sweep = sweeps_[n - kShares];
         if (!sweep.shape) return;
-        if (sweep.is_rapid()) find_contact(n - kShares, sweep);
+        if (sweep.is_rapid() && !sweep.step.move->is_place()) find_contact(n - kShares, sweep);
         if (options_.collisions) find_collisions(n - kShares, sweep);
     });
     divide_rows_at_turns(out);
@@ -402,7 +402,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
         const Sweep& sweep = sweeps_[n];
         if (!sweep.shape) continue;
         out.removed_mm3[n] = removed_[shape++];
-        if (sweep.is_rapid() && out.removed_mm3[n] > kBrush) {
+        if (sweep.is_rapid() && !sweep.step.move->is_place() && out.removed_mm3[n] > kBrush) {
             out.collisions.push_back({n, CollisionKind::rapid_through_stock, sweep.contact,
                                       motion::pose_at(*sweep.step.move, sweep.contact).tip_mm});
         }

@@ -53,6 +53,12 @@ struct Move {
     double spindle_rpm = 0;      // 0: not given by the program
     int tool = 0;                // tool number; 0: not given by the program
     int line = 0;                // of the source, from 1
+
+    // A rapid that goes nowhere: the tool stands here, and nothing is known of how it came.
+    bool is_place() const {
+        return kind == MoveKind::rapid && !arc && !quadratic && start.tip_mm == end.tip_mm &&
+               start.axis == end.axis;
+    }
 };
 
 // One cylindrical step of a holder.

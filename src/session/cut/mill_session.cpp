@@ -163,6 +163,10 @@ class MillSession::Run {
             finish_pass(step, last, first, row);
         }
         for (std::size_t n = 0; n < count; ++n) {
+            if (steps_[n].move->is_place() && machined_.removed_mm3[n] > 0) {
+                if (totals_.stood_in_mm3 == 0) totals_.stood_in_line = steps_[n].move->line;
+                totals_.stood_in_mm3 += machined_.removed_mm3[n];
+            }
             if (steps_[n].move->kind != motion::MoveKind::dwell) ++pieces_;
             last_piece_of_move_.push_back(pieces_);
         }

@@ -15,6 +15,7 @@
 #include "session/cut/cutter_modes.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/part_in_stock.hpp"
+#include "session/cut/places_in_stock.hpp"
 #include "session/cut/speed_warnings.hpp"
 
 namespace tribo::session {
@@ -233,6 +234,7 @@ Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& 
     if (!prepared) return std::unexpected(prepared.error());
     MillSetup setup = *std::move(prepared);
     if (auto done = add_modes(loaded.job, setup, warnings); !done) return std::unexpected(done.error());
+    add_places_in_stock(setup, stock->blank->bounds_mm());
     setup.cell_mm = options.cell_mm.value_or(default_cell_mm(loaded.job, stock->blank->bounds_mm()));
     warn_where_the_grid_is_coarse(setup, loaded.job.file, warnings);
     warn_of_points(setup, loaded.job.file, warnings);

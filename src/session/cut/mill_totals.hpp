@@ -47,6 +47,10 @@ struct MillTotals : ForceTotals {
     double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; at the end
     double chip_mm3 = 0;                        // measured, before reconciliation: should equal fed_mm3
     double fed_mm3 = 0;                         // removed by feed moves
+    // Where paths begin in the stock (places_in_stock.hpp): what the tool stands in there, and the first
+    // line.
+    double stood_in_mm3 = 0;
+    int stood_in_line = 0;
     // Work of the spindle, and the part from the shear coefficient: ktc times the volume of the chips. The
     // rest comes from the edge coefficients.
     double work_j = 0, shear_work_j = 0;

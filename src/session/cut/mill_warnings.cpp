@@ -12,6 +12,8 @@ namespace {
 constexpr double kBalanced = 0.01;
 // Every cut begins and ends with thin chips. Rubbing gives a warning from this share of the cutting time on.
 constexpr double kRubbingShare = 0.1;
+// Less is the rounding of a tool that just touches.
+constexpr double kStoodInMm3 = 0.1;
 
 // Rounds to 1 / `parts`.
 std::string rounded(double value, double parts) {
@@ -30,6 +32,12 @@ Warnings warnings_of(const MillTotals& totals, const std::string& job, const std
         warnings.push_back({job, 0,
                             "nothing was cut: the tool never meets the stock; check the path's units and "
                             "zero, and the stock's place"});
+    }
+    if (totals.stood_in_mm3 > kStoodInMm3) {
+        warnings.push_back({program, totals.stood_in_line,
+                            "the path begins inside the stock: the " + rounded(totals.stood_in_mm3, 10) +
+                                " mm3 that the tool stands in are taken as gone, without a force; add an "
+                                "approach, or give a stock that leaves room for the tool"});
     }
     if (totals.energy_balance && std::abs(*totals.energy_balance - 1) > kBalanced) {
         warnings.push_back({job, 0,
