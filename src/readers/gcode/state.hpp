@@ -279,6 +279,7 @@ enum class Note {
     pitch,
     probing,
     whole_peck,
+    no_retract,
     lost_preset,
     tap_return,
     entered_data,

@@ -76,6 +76,14 @@ TEST(GcodeCycles, FollowFanucWhereTheDialectSaysSo) {
     EXPECT_EQ(path_of("G5.1 Q1\nG0 X1\nG5 P10000", fanuc), "r1,0,5");
 }
 
+TEST(GcodeCycles, BeginWhereTheToolStandsWithoutR) {
+    GcodeOptions options;
+    options.dialect = GcodeDialect::fanuc;
+    EXPECT_EQ(path_of("G98 G81 X1 Z-3\nX3", options), "r1,0,5 f1,0,-3 r1,0,5 r3,0,5 f3,0,-3 r3,0,5");
+    const motion::Program program = program_of("G21 G90 M3 S1000 F100\nG0 X0 Y0 Z5\nG81 X1 Z-3\n", options);
+    EXPECT_TRUE(warns_of(program, 3, "G81 without R: the feed begins where the tool stands"));
+}
+
 TEST(GcodeCycles, SayWhatTheyAssume) {
     const auto warns = [](const char* text, const char* what) {
         return warns_of(program_of(std::string("G21 M3 F9\nG0 X0 Y0 Z5\n") + text), 3, what);

@@ -106,8 +106,9 @@ class Run {
         if (!cycle.initial_mm) cycle.initial_mm = state_.tip_mm[axis_];
         const double origin = state_.origin_mm()[axis_];
         // In G91, R is relative to the start of the cycle, and Z to R.
-        const double retract = state_.incremental ? *cycle.initial_mm + scale() * *cycle.retract_mm
-                                                  : origin + level(*cycle.retract_mm);
+        const double retract = !cycle.retract_mm    ? *cycle.initial_mm
+                               : state_.incremental ? *cycle.initial_mm + scale() * *cycle.retract_mm
+                                                    : origin + level(*cycle.retract_mm);
         const double depth =
             state_.incremental ? retract + scale() * *cycle.depth_mm : origin + level(*cycle.depth_mm);
         if (depth > retract && cycle.tenths == 870) {
@@ -155,7 +156,7 @@ class Run {
         state_.tip_mm = target->tip_mm;
         state_.known = target->known;
         const auto depth_axis = static_cast<std::size_t>(axis_);
-        if (state_.known[depth_axis] == Known::lost && !state_.incremental) {
+        if (state_.known[depth_axis] == Known::lost && !state_.incremental && state_.cycle.retract_mm) {
             state_.tip_mm[axis_] = level(*state_.cycle.retract_mm) + state_.origin_mm()[axis_];
             state_.known[depth_axis] = Known::yes;
         }
@@ -201,7 +202,14 @@ class Run {
         }
         if (auto done = read_repeats(); !done) return done;
         if (repeats_ == 0) return {};
-        if (!cycle.retract_mm) return refuse_missing("R", "write the level at which the feed begins");
+        if (!cycle.retract_mm) {
+            if (output_.options.dialect == GcodeDialect::linuxcnc)
+                return refuse_missing("R", "write the level at which the feed begins");
+            if (output_.first(Note::no_retract)) {
+                output_.warn(command_.line(), code_text('G', cycle.tenths) +
+                                                  " without R: the feed begins where the tool stands");
+            }
+        }
         if (!cycle.depth_mm) {
             return refuse_missing(axis_ == 2 ? "Z" : axis_ == 1 ? "Y" : "X", "write the depth");
         }
