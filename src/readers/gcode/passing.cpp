@@ -20,7 +20,7 @@ std::unexpected<Error> refuse_unused(const Command& command, const Word& word, c
                                  "the word");
         case 'R':
             return output.refuse(command.line(), word.column, "R without an arc to use it",
-                                 "write G2 or G3 before it, or delete the word");
+                                 "write G2 or G3 before it, ,R for a round corner, or delete the word");
         default:
             return output.refuse(command.line(), word.column, letter + " without a code that uses it",
                                  "delete the word, or add the code that it belongs to");

@@ -26,6 +26,8 @@ TEST(GcodeCorners, round_and_cut_the_end_of_a_block) {
     EXPECT_LT(distance(round.moves[3].end.tip_mm, {38, 40, 0}), 1e-9);
     // Fagor writes the same as G36 and G39.
     EXPECT_NEAR(feed_mm(fanuc("G1 G36 R5 X40\nG39 R2 Y40\nX0\n")), feed_mm(round), 1e-9);
+    // A chamfer may take the whole of a move.
+    EXPECT_NEAR(feed_mm(fanuc("G1 X40\nY8 ,C8\nX0\n")), 40 + std::hypot(8, 8) + 32, 1e-9);
     // Straight on there is no corner.
     EXPECT_NEAR(feed_mm(fanuc("G1 X40 ,R5\nX60\n")), 60, 1e-9);
 }

@@ -231,9 +231,8 @@ std::optional<Element> rounded(Element& before, Element& next, double radius_mm)
 }
 
 std::optional<Element> chamfered(Element& before, Element& next, double leg_mm) {
-    const bool fits =
-        !before.is_arc() && !next.is_arc() && leg_mm < before.length() && leg_mm < next.length();
-    if (!fits) return std::nullopt;
+    const double shorter = std::min(before.length(), next.length());
+    if (before.is_arc() || next.is_arc() || leg_mm > shorter + kSamePointMm) return std::nullopt;
     const Point leave = before.end - leg_mm * before.end_direction();
     const Point enter = next.start + leg_mm * next.start_direction();
     before.set_end(leave);
