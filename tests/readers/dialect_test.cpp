@@ -16,6 +16,8 @@ TEST(Dialect, IsToldByWhatOnlyOneControlWrites) {
         {"(made for TRAORI)\nG1 X1\n", std::nullopt},
         {"%\nO0001\nG1 X1\n", Dialect::fanuc},
         {":1234\nG1 X1\n", Dialect::fanuc},
+        {"%O1000\nG1 X1\n", Dialect::fanuc},
+        {"(made (by hand) for a mill)\n%\nO0025\nG1 X1\n", Dialect::fanuc},
         {"G1 X1\nG43.4 H1\n", Dialect::fanuc},
         {"g1 x1\no100 sub\n", std::nullopt},
         {"o<cut> call\n", Dialect::linuxcnc},

@@ -75,20 +75,22 @@ bool looks_like_siemens(std::string_view text) {
     return false;
 }
 
-// To upper case, without blanks and comments.
+// To upper case, without blanks and comments, which may stand within each other.
 std::string plain(std::string_view line) {
     std::string text;
-    bool comment = false;
+    int depth = 0;
     for (const char c : line) {
         if (c == ';') break;
-        if (c == '(' && (text.empty() || !is_letter(text.back()))) comment = true;
-        if (!comment && !is_blank(c)) text += to_upper(c);
-        if (c == ')') comment = false;
+        if (c == '(' && (depth > 0 || text.empty() || !is_letter(text.back()))) ++depth;
+        if (depth == 0 && !is_blank(c)) text += to_upper(c);
+        if (c == ')' && depth > 0) --depth;
     }
     return text;
 }
 
+// O1000, :1000; %O1000 where the first line holds both.
 bool is_program_number(std::string_view text) {
+    if (text.starts_with("%O")) text.remove_prefix(1);
     return text.size() > 1 && (text[0] == 'O' || text[0] == ':') &&
            std::all_of(text.begin() + 1, text.end(), is_digit);
 }
