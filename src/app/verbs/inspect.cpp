@@ -183,7 +183,7 @@ int inspect(const Call& call) {
     std::vector<Error> refusals;
     const FileResult<Found> found = inspect_file(call, refusals);
     if (!found) {
-        const int code = report(found.error());
+        const int code = refusals.empty() ? report(found.error()) : report(refusals[0]);
         for (std::size_t i = 1; i < refusals.size(); ++i) report(refusals[i]);
         if (refusals.size() == readers::kMostRefusals) {
             std::fprintf(stderr, "there may be more: only %zu refusals are shown\n", refusals.size());
