@@ -101,13 +101,14 @@ class Interpreter : private SystemValues {
 
     // Variables and programs (programs.cpp)
     Result<void> define(Cursor& in);
+    Result<void> read_sizes(Variable& variable, std::size_t at, Cursor& in);
     Result<void> define_macro(Cursor& in);
     Result<Call> call_at(Cursor& in, const std::string& name, std::size_t at);
     Result<void> run_call(const Call& call);
     Result<void> run_unit(const Unit& unit, const Call& call);
-    struct Returned {  // a VAR parameter, what the caller gave for it, and its value at the end
+    struct Returned {  // a VAR parameter, what the caller gave for it, and its values at the end
         std::string name, given;
-        Value value;
+        std::vector<Value> values;
     };
     Result<void> take_parameters(const Unit& unit, const Call& call, std::vector<Returned>& returned);
     Result<void> leave_out_program(const Call& call);

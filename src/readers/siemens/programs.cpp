@@ -60,20 +60,7 @@ Result<void> Interpreter::define(Cursor& in) {
         if (in.peek_after_blanks() == '[') {
             if (are_frames) return in.refuse(at, "an array of frames is not read", "define each by its name");
             ++in.at;
-            const auto sizes = Formula(in, variables_, *this).indices();
-            if (!sizes) return std::unexpected(sizes.error());
-            double count = 1;
-            for (std::size_t k = 0; k < sizes->size() && k < 2; ++k) {
-                const double* size = std::get_if<double>(&(*sizes)[k]);
-                count *= size != nullptr && *size >= 1 ? std::floor(*size) : 0;
-                if (count >= 1 && count <= kLargestArray) variable.sizes[k] = static_cast<std::size_t>(*size);
-            }
-            if (!(count >= 1 && count <= kLargestArray) || sizes->size() > 2) {
-                return in.refuse(at, "an array of this size is not read", "write at most two sizes");
-            }
-            const auto sizes_now = variable.sizes;
-            variable = fresh(*type, static_cast<std::size_t>(count));
-            variable.sizes = sizes_now;
+            if (auto done = read_sizes(variable, at, in); !done) return done;
         }
         if (!variables_.define(name, std::move(variable))) {
             return in.refuse(at, "the variables hold more than a million values", "define smaller arrays");
@@ -83,6 +70,23 @@ Result<void> Interpreter::define(Cursor& in) {
         }
         if (in.peek_after_blanks() == ',') ++in.at;
     }
+    return {};
+}
+
+// [3] or [2,3] behind the name of an array. The cursor is behind the first bracket.
+Result<void> Interpreter::read_sizes(Variable& variable, std::size_t at, Cursor& in) {
+    const auto sizes = Formula(in, variables_, *this).indices();
+    if (!sizes) return std::unexpected(sizes.error());
+    double count = 1;
+    for (std::size_t k = 0; k < sizes->size() && k < 2; ++k) {
+        const double* size = std::get_if<double>(&(*sizes)[k]);
+        count *= size != nullptr && *size >= 1 ? std::floor(*size) : 0;
+        if (count >= 1 && count <= kLargestArray) variable.sizes[k] = static_cast<std::size_t>(*size);
+    }
+    if (!(count >= 1 && count <= kLargestArray) || sizes->size() > 2) {
+        return in.refuse(at, "an array of this size is not read", "write at most two sizes");
+    }
+    variable.values = fresh(variable.type, static_cast<std::size_t>(count)).values;
     return {};
 }
 
@@ -257,13 +261,13 @@ Result<void> Interpreter::run_unit(const Unit& unit, const Call& call) {
         unit_ = caller;
         --depth_;
     }
-    for (Returned& parameter : returned) parameter.value = variables_.find(parameter.name)->values[0];
+    for (Returned& parameter : returned) parameter.values = variables_.find(parameter.name)->values;
     variables_.leave();
     for (const Returned& parameter : returned) {
         Variable* variable = variables_.find(parameter.given);
-        const double* number = std::get_if<double>(&parameter.value);
-        if (variable != nullptr && variable->values.size() == 1) {
-            variable->values[0] = parameter.value;
+        const double* number = std::get_if<double>(&parameter.values[0]);
+        if (variable != nullptr && variable->values.size() == parameter.values.size()) {
+            variable->values = parameter.values;
         } else if (variable == nullptr && number != nullptr && parameter.given[0] == 'R') {
             const auto r = number_of(parameter.given.substr(1));
             if (r && *r >= 0 && *r < Variables::kMostR) variables_.set_r(static_cast<int>(*r), *number);
@@ -274,7 +278,7 @@ Result<void> Interpreter::run_unit(const Unit& unit, const Call& call) {
     return done;
 }
 
-// PROC NAME(REAL A, INT B=2, VAR REAL C)
+// PROC NAME(REAL A, INT B=2, VAR REAL C, VAR REAL D[3])
 Result<void> Interpreter::take_parameters(const Unit& unit, const Call& call,
                                           std::vector<Returned>& returned) {
     if (!unit.proc) return {};
@@ -308,13 +312,32 @@ Result<void> Interpreter::take_parameters(const Unit& unit, const Call& call,
         }
         in.at += name.size();
         Variable variable = fresh(*type);
+        const Variable* array = nullptr;  // of the caller
+        if (in.peek_after_blanks() == '[') {
+            ++in.at;
+            if (call.has(i)) array = variables_.find_of_caller(call.names[i]);
+            const bool is_of_any_size = in.peek_after_blanks() == ']' || in.peek_after_blanks() == ',';
+            if (is_of_any_size) {  // A[] and A[,]
+                while (in.peek_after_blanks() == ',') ++in.at;
+                if (in.peek_after_blanks() == ']') ++in.at;
+                if (array != nullptr) variable.sizes = array->sizes;
+            } else if (auto done = read_sizes(variable, at, in); !done) {
+                return done;
+            }
+            if (array == nullptr || array->type != *type || array->sizes != variable.sizes) {
+                return path_.refuse({call.line, call.column},
+                                    call.name + " without an array of the size of its parameter " + name,
+                                    "give it an array of this type and size");
+            }
+            variable.values = array->values;
+        }
         if (in.peek_after_blanks() == '=') {
             ++in.at;
             const auto value = Formula(in, variables_, *this).value();
             if (!value) return std::unexpected(value.error());
             if (auto done = set_element(variable, 0, *value, at, in); !done) return done;
         }
-        if (call.has(i)) {
+        if (call.has(i) && array == nullptr) {
             if (auto done = set_element(variable, 0, *call.given[i], at, in); !done) return done;
         }
         if (!variables_.define(name, std::move(variable))) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -36,6 +37,13 @@ class Variables {
     // Names are in upper case. The innermost program's come first; null: there is none.
     Variable* find(const std::string& name) {
         for (auto level = levels_.rbegin(); level != levels_.rend(); ++level) {
+            if (const auto found = level->find(name); found != level->end()) return &found->second;
+        }
+        return nullptr;
+    }
+    // As find(), without the innermost program's own.
+    const Variable* find_of_caller(const std::string& name) const {
+        for (auto level = std::next(levels_.rbegin()); level != levels_.rend(); ++level) {
             if (const auto found = level->find(name); found != level->end()) return &found->second;
         }
         return nullptr;

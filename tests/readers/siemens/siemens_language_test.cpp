@@ -101,6 +101,20 @@ TEST(SiemensLanguage, ProgramsOfTheFileRunWithTheirParameters) {
     EXPECT_EQ(x, (std::vector<double>{10, 11, 12, 13, 0, 5}));
 }
 
+TEST(SiemensLanguage, ProgramsTakeArraysAndReturnThem) {
+    // The sum of the parts comes back in the first; the second program takes an array of any size.
+    const std::string text = std::string(kStart) +
+                             "DEF REAL P[3]=SET(1,2,4)\nDEF INT Q[2,2]\nSUM(P)\nFILL(Q,5)\n"
+                             "G0 X=P[0] Y=P[2] Z=Q[1,1]\nM30\n"
+                             "PROC SUM(VAR REAL P[3])\nP[0]=P[0]+P[1]+P[2]\nRET\n"
+                             "PROC FILL(VAR INT A[,], INT B)\nA[1,1]=B\nRET\n";
+    const auto program = read_siemens(text);
+    ASSERT_TRUE(program.has_value()) << program.error().text();
+    expect_near(end_of(*program), {7, 4, 5}, 1e-12);
+    EXPECT_FALSE(
+        read_siemens(std::string(kStart) + "DEF REAL P[2]\nSUM(P)\nM30\nPROC SUM(VAR REAL A[3])\nRET\n"));
+}
+
 TEST(SiemensLanguage, LeavesOutProgramsThatAreNotAtHandAndSaysSo) {
     const motion::Program program = siemens("G1 X5 F100\nTOOL_CHANGE(3)\nG1 X6\nG0 X0 Y0 Z5\nG1 X1\n");
     EXPECT_TRUE(warns_of(program, 5, "TOOL_CHANGE is not at hand"));
