@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "readers/control/path.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/text/limit_text.hpp"
 #include "motion/path/moves.hpp"
 #include "motion/path/path.hpp"
+#include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::control {
 
@@ -229,6 +231,18 @@ std::optional<double> Path::tool_radius_mm() const {
     const auto declared = declared_radii_mm_.find(tool);
     if (declared != declared_radii_mm_.end()) return declared->second;
     return known(0);  // an unnumbered tool of the job stands for every one
+}
+
+double Path::clearing_radius_mm(double unit_of_program_mm, int line, double room_mm) {
+    if (const auto radius = tool_radius_mm(); radius && *radius > 0) return *radius;
+    if (const auto diameter = notes.stated_diameter_mm(tool, unit_of_program_mm)) return *diameter / 2;
+    const double assumed_mm = room_mm > 0 ? std::min(kAssumedRadiusMm, room_mm / 2) : kAssumedRadiusMm;
+    if (assumed_radii_.insert(tool).second) {
+        warn(line, "nothing states the radius of tool " + std::to_string(tool) + ": " +
+                       short_decimal(assumed_mm) +
+                       " mm are taken; give the tool to the job, or write a comment like (T1 D=10.)");
+    }
+    return assumed_mm;
 }
 
 int Path::flutes() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,6 +36,11 @@ struct Roll {
     double way = 1;       // of the rotary word for a growing coordinate around it
     double aside_mm = 0;  // where the machine's axis of that coordinate stays
 };
+
+// Radius of a tool that nothing states, mm: half of the end mill that job/completion.cpp assumes.
+inline constexpr double kAssumedRadiusMm = 3;
+// Radius of the narrowest place of what has none, such as a stud.
+inline constexpr double kOpenMm = std::numeric_limits<double>::infinity();
 
 class Path {
   public:
@@ -100,6 +106,9 @@ class Path {
     void define_radius(int number, double radius_mm) { declared_radii_mm_[number] = radius_mm; }
     // Radius of the tool in the spindle by the options, else by TOOL DEF; none if nothing states it.
     std::optional<double> tool_radius_mm() const;
+    // Its radius for cycles that clear an area, which have no path without one: as above, else by a comment,
+    // else kAssumedRadiusMm, or half of the room where that is narrower, with a warning for each tool.
+    double clearing_radius_mm(double unit_of_program_mm, int line, double room_mm = kOpenMm);
     // Number of its teeth; 0: not known.
     int flutes() const;
     // The tool `number` comes into the spindle. Its length is taken from the options, else from TOOL DEF of
@@ -148,6 +157,7 @@ class Path {
     std::map<int, double> given_lengths_mm_, declared_lengths_mm_;  // by number of the tool
     std::map<int, double> declared_radii_mm_;
     std::set<int> declaring_lines_;
+    std::set<int> assumed_radii_;  // tools whose radius nothing states
     Vec3 place_mm_;  // tip in the frame of the stock; on a machine without tip control its X Y Z
     Vec3 parallel_mm_;
     std::array<bool, 3> has_parallel_{};

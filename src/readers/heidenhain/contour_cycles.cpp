@@ -147,8 +147,7 @@ Result<void> Interpreter::mill_contour_cycle() {
                             "write CYCL DEF 20 with the depth and a minus sign");
     }
     if (cycle_.number == 25) return follow_contour();
-    const auto radius = cutter_radius(cycle_.place);
-    return radius ? mill_contour_pocket(*radius) : std::unexpected(radius.error());
+    return mill_contour_pocket(cutter_radius());
 }
 
 // 22: all of it but the allowances; 23: its floor; 24: its edge.
@@ -211,12 +210,7 @@ Result<void> Interpreter::follow_contour() {
     if (!contour) return std::unexpected(contour.error());
     const auto elements = elements_of(*contour);
     if (!elements) return std::unexpected(elements.error());
-    double radius = 0;
-    if (contour->side != 0) {
-        const auto known = cutter_radius(cycle_.place);
-        if (!known) return std::unexpected(known.error());
-        radius = *known + std::max(contour_word(3), 0.0);
-    }
+    const double radius = contour->side == 0 ? 0 : cutter_radius() + std::max(contour_word(3), 0.0);
     const control::PocketDepths depths = contour_depths();
     const double height = depths.top - depths.bottom, infeed = std::abs(contour_word(10));
     const double passes = infeed > 0 ? std::max(1.0, std::ceil(height / infeed - 1e-9)) : 1;

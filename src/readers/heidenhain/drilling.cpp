@@ -171,22 +171,16 @@ Result<void> Interpreter::tap() {
     return return_from(surface, feed);
 }
 
-// The tool's radius, for cycles that need it.
-Result<double> Interpreter::cutter_radius(Place where) {
-    const auto radius = path_.tool_radius_mm();
-    if (radius && *radius > 0) return *radius + tool_oversize_mm_;
-    return path_.refuse(where,
-                        "cycle " + std::to_string(cycle_.number) + " needs the radius of tool " +
-                            std::to_string(path_.tool) + ", which nothing states",
-                        "give the tool to the job, or write TOOL DEF with R");
+// The tool's radius with DR, for cycles that need it; `room` is the radius of the narrowest place, mm.
+double Interpreter::cutter_radius(double room) {
+    return path_.clearing_radius_mm(unit_mm_, cycle_.place.line, room) + tool_oversize_mm_;
 }
 
 // 208: a helix to the depth, a full circle there, and back to the middle. The way to the wall is half a
 // circle.
 Result<void> Interpreter::mill_bore() {
-    const auto radius = cutter_radius(cycle_.place);
-    if (!radius) return std::unexpected(radius.error());
-    const double orbit = cycle_.at(335) / 2 - *radius;
+    const double radius = cutter_radius(cycle_.at(335) / 2);
+    const double orbit = cycle_.at(335) / 2 - radius;
     if (!(orbit > 1e-3)) {
         return path_.refuse(cycle_.place, "the tool is not smaller than the bore Q335",
                             "take a smaller tool or cycle 200");

@@ -92,14 +92,13 @@ Result<void> Interpreter::mill_face() {
     const std::string name = "cycle " + std::to_string(cycle_.number);
     if (auto good = path_.in_range(kLimits.feed, std::min(cycle_.at(207), kFastFeed), cycle_.place); !good)
         return good;
-    const auto radius = cutter_radius(cycle_.place);
-    if (!radius) return std::unexpected(radius.error());
+    const double radius = cutter_radius();
     if (path_.first(kFaceWay)) {
         path_.warn(cycle_.place.line,
                    "where the lines of " + name + " lie is the control's own: evenly over the face is taken");
     }
-    if (cycle_.number == 231) return mill_ruled_face(2 * *radius);
-    const auto face = cycle_.number == 230 ? old_face_of_cycle(*radius) : face_of_cycle(*radius);
+    if (cycle_.number == 231) return mill_ruled_face(2 * radius);
+    const auto face = cycle_.number == 230 ? old_face_of_cycle(radius) : face_of_cycle(radius);
     if (!face) return std::unexpected(face.error());
     const double count = control::line_count(*face);
     if (!(count >= 1) || !(count <= kMostLines) || face->length == 0 || face->width == 0) {

@@ -261,7 +261,7 @@ class Interpreter {
     Result<void> follow_contour();
     Result<void> follow_contour_at(const control::Ring& elements, int side, double radius, double z);
     Result<void> return_from(double surface, double feed_mm_per_min);
-    Result<double> cutter_radius(Place place);
+    double cutter_radius(double room = control::kOpenMm);
     Result<void> define_pattern(LineReader& in);
     Result<void> add_pattern(const std::string& kind, const std::map<std::string, double>& words, int column);
     Result<void> run_point_pattern(const Cycle& pattern);

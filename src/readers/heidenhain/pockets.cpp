@@ -161,13 +161,13 @@ Result<void> Interpreter::mill_pocket_cycle() {
     const std::string name = "cycle " + std::to_string(cycle_.number);
     auto pocket = pocket_of_cycle();
     if (!pocket) return std::unexpected(pocket.error());
-    const auto radius = cutter_radius(cycle_.place);
-    if (!radius) return std::unexpected(radius.error());
-    pocket->radius = *radius;
-    pocket->step = cycle_.number >= 200 ? std::abs(cycle_.at(370)) * *radius : 0;
+    const double radius = cutter_radius(
+        is_stud(cycle_.number) ? control::kOpenMm : std::min(pocket->half_length, pocket->half_width));
+    pocket->radius = radius;
+    pocket->step = cycle_.number >= 200 ? std::abs(cycle_.at(370)) * radius : 0;
     pocket->centre = middle_of(*pocket);
     const bool goes_round = is_stud(cycle_.number);
-    const double most = std::min(pocket->half_length, pocket->half_width) - *radius - pocket->allowance;
+    const double most = std::min(pocket->half_length, pocket->half_width) - radius - pocket->allowance;
     if (!(pocket->half_width > 0) || !(pocket->half_length > 0) || (!goes_round && !(most >= kFits))) {
         return path_.refuse(cycle_.place, "the tool does not fit into the pocket of " + name,
                             "take a smaller tool, or correct its sides");

@@ -28,12 +28,11 @@ std::optional<double> Interpreter::cycle_feed(int parameter) const {
 // What the words of the cycle in force say, but for the heights. A right-hand thread that turns to the left
 // goes up. Climbing turns to the left in a hole, to the right about a bolt.
 Result<control::Helix> Interpreter::thread_of_cycle() {
-    const auto radius = cutter_radius(cycle_.place);
-    if (!radius) return std::unexpected(radius.error());
     control::Helix helix;
     helix.is_outside = cycle_.number == 267;
-    helix.radius = cycle_.at(335) / 2 + (helix.is_outside ? *radius : -*radius);
-    helix.lead = helix.is_outside ? std::max(*radius, helix.radius / 2) : helix.radius / 2;
+    const double radius = cutter_radius(helix.is_outside ? control::kOpenMm : cycle_.at(335) / 2);
+    helix.radius = cycle_.at(335) / 2 + (helix.is_outside ? radius : -radius);
+    helix.lead = helix.is_outside ? std::max(radius, helix.radius / 2) : helix.radius / 2;
     helix.centre = path_.tip();
     helix.feed = cycle_.at(207);
     helix.plunge = cycle_feed(253);

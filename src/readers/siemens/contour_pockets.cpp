@@ -55,13 +55,12 @@ Result<void> Interpreter::mill_contour_pocket(const Call& named) {
     const auto feed = cycle_feed(call, 4), plunge = cycle_feed(call, 5);
     if (!feed) return std::unexpected(feed.error());
     if (!plunge) return std::unexpected(plunge.error());
-    const auto radius = cutter_radius(where, "CYCLE63");
-    if (!radius) return std::unexpected(radius.error());
+    const double radius = path_.clearing_radius_mm(unit_mm_, where.line);
     const double scale = std::abs(scale_[u]) * unit_mm_;
     control::AreaMilling milling;
     milling.depths = *depths;
-    milling.radius = *radius;
-    milling.step = ring_step(call, 6, 23);
+    milling.radius = radius;
+    milling.step = ring_step(call, 6, 23, radius);
     milling.infeed = std::abs(call.at(7)) * scale;
     if (kind != 4) milling.allowance = std::abs(call.at(8)) * scale;
     if (kind != 3) milling.depths.bottom += std::abs(call.at(9)) * scale;

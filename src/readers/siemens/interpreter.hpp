@@ -223,7 +223,7 @@ class Interpreter : private SystemValues {
     using Pocket = control::Pocket;        // MID, MIDA, FAL; FFP1, FFD
     static bool is_milling_cycle(const std::string& name);
     Result<Depths> depths_of(const Call& call, std::size_t increment, std::size_t mode) const;
-    double ring_step(const Call& call, std::size_t at, std::size_t mode) const;
+    double ring_step(const Call& call, std::size_t at, std::size_t mode, double radius) const;
     Result<double> cycle_feed(const Call& call, std::size_t at) const;
     Result<void> run_milling_cycle(const Call& call);
     Result<void> mill_pocket(const Pocket& pocket, Place where);

@@ -97,12 +97,12 @@ Result<Interpreter::Depths> Interpreter::depths_of(const Call& call, std::size_t
     return depths;
 }
 
-// MIDA in mm, or in percent of the tool's diameter; 0: not given, or the tool is not known.
-double Interpreter::ring_step(const Call& call, std::size_t at, std::size_t mode) const {
+// MIDA in mm, or in percent of the tool's diameter; 0: not given.
+double Interpreter::ring_step(const Call& call, std::size_t at, std::size_t mode, double radius) const {
     const double step = std::abs(call.at(at));
     const bool is_percent = static_cast<int>(std::clamp(call.at(mode), 0.0, 1e6)) / 10 % 10 == 1;
     if (!is_percent) return step * std::abs(scale_[axes()[0]]) * unit_mm_;
-    return std::min(step, 100.0) / 100 * 2 * path_.tool_radius_mm().value_or(0);
+    return std::min(step, 100.0) / 100 * 2 * radius;
 }
 
 Result<double> Interpreter::cycle_feed(const Call& call, std::size_t at) const {
@@ -148,7 +148,6 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     pocket.half_width = at.width == kNone ? size(at.radius) : size(at.width) / 2;
     pocket.half_length = at.length == kNone ? pocket.half_width : size(at.length) / 2;
     pocket.infeed = size(at.infeed);
-    pocket.step = ring_step(call, at.step, at.mode);
     pocket.allowance = size(at.allowance);
     pocket.along_edge = static_cast<int>(std::clamp(call.at(at.kind), 0.0, 1e6)) % 10 == 2;
     if (pocket.along_edge) pocket.allowance = 0;
@@ -160,17 +159,14 @@ Result<void> Interpreter::run_milling_cycle(const Call& call) {
     if (!plunge) return std::unexpected(plunge.error());
     pocket.feed = *feed;
     pocket.plunge = *plunge;
-    const auto radius = path_.tool_radius_mm();
-    if (!radius && path_.first(kNoRadius)) {
-        path_.warn(line_number(),
-                   "nothing states the radius of tool " + std::to_string(path_.tool) +
-                       ": it is taken as half as wide as the pocket; give the tool to the job");
-    }
-    if (call.name == "LONGHOLE") pocket.half_width = radius.value_or(0);
-    pocket.radius = radius.value_or(pocket.half_width / 2);
+    const bool is_stud = call.name == "CYCLE76" || call.name == "CYCLE77";
+    const bool has_room = is_stud || call.name == "LONGHOLE";
+    pocket.radius =
+        path_.clearing_radius_mm(unit_mm_, line_number(), has_room ? control::kOpenMm : pocket.half_width);
+    if (call.name == "LONGHOLE") pocket.half_width = pocket.radius;
+    pocket.step = ring_step(call, at.step, at.mode, pocket.radius);
     pocket.corner = at.width == kNone || at.radius == kNone ? pocket.half_width
                                                             : std::min(size(at.radius), pocket.half_width);
-    const bool is_stud = call.name == "CYCLE76" || call.name == "CYCLE77";
     if (is_stud) {
         if (call.name == "CYCLE77") {  // PRAD is a diameter
             pocket.half_length = pocket.half_width = pocket.corner = size(at.radius) / 2;
@@ -252,8 +248,7 @@ Result<void> Interpreter::mill_polygon(const Call& call) {
     if (!depths) return std::unexpected(depths.error());
     const auto feed = cycle_feed(call, 15);
     if (!feed) return std::unexpected(feed.error());
-    const auto radius = cutter_radius(where, "CYCLE79");
-    if (!radius) return std::unexpected(radius.error());
+    const double radius = path_.clearing_radius_mm(unit_mm_, where.line);
     const double sides = call.at(4), scale = std::abs(scale_[axes()[0]]) * unit_mm_;
     const int kind = static_cast<int>(std::clamp(call.at(17), 0.0, 1e6));
     const int mode = static_cast<int>(std::clamp(call.at(22), 0.0, 1e6));
@@ -275,8 +270,8 @@ Result<void> Interpreter::mill_polygon(const Call& call) {
     stud.angle_rad = call.at(8) * math::kRadPerDeg;
     stud.corner = std::abs(call.at(9)) * scale;
     stud.blank_half_width = std::abs(call.at(10)) / 2 * scale;
-    stud.radius = *radius;
-    stud.step = ring_step(call, 11, 22);
+    stud.radius = radius;
+    stud.step = ring_step(call, 11, 22, radius);
     stud.infeed = std::abs(call.at(12)) * scale;
     stud.along_edge = kind % 10 >= 2;
     if (!stud.along_edge) {
@@ -299,8 +294,7 @@ Result<void> Interpreter::mill_face(const Call& call) {
     if (!depths) return std::unexpected(depths.error());
     const auto feed = cycle_feed(call, is_old ? 13 : 11);
     if (!feed) return std::unexpected(feed.error());
-    const auto radius = cutter_radius(where, call.name.c_str());
-    if (!radius) return std::unexpected(radius.error());
+    const double radius = path_.clearing_radius_mm(unit_mm_, where.line);
     const double scale = scale_[axes()[0]] * unit_mm_;
     const int kind = static_cast<int>(std::clamp(call.at(is_old ? 14 : 12), 0.0, 99.0));
     const double angle = is_old ? call.at(8) : 0;
@@ -314,9 +308,9 @@ Result<void> Interpreter::mill_face(const Call& call) {
     face.width = call.at(7) * scale;
     face.angle_rad = angle * math::kRadPerDeg;
     face.along_width = kind / 10 == 2 || kind / 10 == 4;
-    face.step = ring_step(call, is_old ? 10 : 9, is_old ? kNone : 15);
-    if (!(face.step > 0)) face.step = kUsualStep * 2 * *radius;
-    face.over = face.start_over = *radius + (is_old ? std::abs(call.at(15)) * scale : 0);
+    face.step = ring_step(call, is_old ? 10 : 9, is_old ? kNone : 15, radius);
+    if (!(face.step > 0)) face.step = kUsualStep * 2 * radius;
+    face.over = face.start_over = radius + (is_old ? std::abs(call.at(15)) * scale : 0);
     face.feed = *feed;
     face.between = *feed;
     const double count = control::line_count(face);

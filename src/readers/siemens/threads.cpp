@@ -36,14 +36,14 @@ Result<void> Interpreter::mill_thread(const Call& call) {
     if (!depths) return std::unexpected(depths.error());
     const auto feed = cycle_feed(call, 8);
     if (!feed) return std::unexpected(feed.error());
-    const auto tool = cutter_radius(where, "CYCLE90");
-    if (!tool) return std::unexpected(tool.error());
     const double scale = std::abs(scale_[axes()[0]]) * unit_mm_;
     Helix helix;
     helix.is_outside = call.at(10) == 1;
-    helix.radius = helix.is_outside ? std::abs(call.at(6)) * scale / 2 + *tool
-                                    : std::abs(call.at(5)) * scale / 2 - *tool;
-    helix.lead = helix.is_outside ? std::max(*tool, helix.radius / 2) : helix.radius / 2;
+    const double hole = std::abs(call.at(5)) * scale / 2;
+    const double tool =
+        path_.clearing_radius_mm(unit_mm_, where.line, helix.is_outside ? control::kOpenMm : hole);
+    helix.radius = helix.is_outside ? std::abs(call.at(6)) * scale / 2 + tool : hole - tool;
+    helix.lead = helix.is_outside ? std::max(tool, helix.radius / 2) : helix.radius / 2;
     const double pitch = std::abs(call.at(7)) * scale;
     helix.turns = (depths->near - depths->bottom) / pitch;
     if (!(helix.radius > kSameMm) || !(pitch > 0) || !(helix.turns <= kMostTurns)) {
@@ -71,8 +71,6 @@ Result<void> Interpreter::mill_thread_of_plate(const Call& call) {
     if (!depths) return std::unexpected(depths.error());
     const auto feed = cycle_feed(call, 10);
     if (!feed) return std::unexpected(feed.error());
-    const auto tool = cutter_radius(where, "CYCLE70");
-    if (!tool) return std::unexpected(tool.error());
     if (call.at(8) > 1) {
         return path_.refuse(where, "CYCLE70 with a plate of more than one tooth is not read",
                             "let the CAM system write the path with G0 to G3");
@@ -84,13 +82,15 @@ Result<void> Interpreter::mill_thread_of_plate(const Call& call) {
     const bool finishes = kind % 10 == 2, goes_up = kind / 10 % 10 == 2, is_left = kind / 100 % 10 == 1;
     Helix helix;
     helix.is_outside = call.at(11) == 1;
+    const double tool = path_.clearing_radius_mm(unit_mm_, where.line,
+                                                 helix.is_outside ? control::kOpenMm : diameter / 2 - depth);
     const double cut = finishes ? depth : std::max(depth - std::abs(call.at(6)) * scale, 0.0);
     const double infeed = std::abs(call.at(9)) * scale;
     const double cuts = !finishes && infeed > 0 ? std::max(1.0, std::ceil(cut / infeed - 1e-9)) : 1;
     helix.turns = (depths->top - depths->bottom) / pitch;
     const double final_radius =
-        helix.is_outside ? diameter / 2 - cut + *tool : diameter / 2 - depth + cut - *tool;
-    const double first_radius = helix.is_outside ? final_radius : diameter / 2 - depth + cut / cuts - *tool;
+        helix.is_outside ? diameter / 2 - cut + tool : diameter / 2 - depth + cut - tool;
+    const double first_radius = helix.is_outside ? final_radius : diameter / 2 - depth + cut / cuts - tool;
     if (!(first_radius > kSameMm) || !(pitch > 0) || !(helix.turns * cuts <= kMostTurns)) {
         return path_.refuse(where, "CYCLE70: the tool does not fit, or the pitch is none",
                             "correct DIATH, H1 and PIT, or take a smaller tool");
@@ -105,8 +105,8 @@ Result<void> Interpreter::mill_thread_of_plate(const Call& call) {
     for (double k = 1; k <= cuts; ++k) {
         const double now_cut = cut * k / cuts;
         helix.radius =
-            helix.is_outside ? diameter / 2 - now_cut + *tool : diameter / 2 - depth + now_cut - *tool;
-        helix.lead = helix.is_outside ? std::max(*tool, helix.radius / 2) : helix.radius / 2;
+            helix.is_outside ? diameter / 2 - now_cut + tool : diameter / 2 - depth + now_cut - tool;
+        helix.lead = helix.is_outside ? std::max(tool, helix.radius / 2) : helix.radius / 2;
         if (auto done = mill_helix(helix); !done) return done;
         const Vec3 end = to_plane(path_.tip());
         if (auto done = mill_to({end.x, end.y, depths->back}, {}, {}); !done) return done;

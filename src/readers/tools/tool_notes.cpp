@@ -143,6 +143,12 @@ std::optional<double> ToolNotes::diameter_mm(int tool, double unit_of_program_mm
     return notes_[known->second].second.text.diameter->mm(unit_of_program_mm);
 }
 
+std::optional<double> ToolNotes::stated_diameter_mm(int tool, double unit_of_program_mm) const {
+    const auto known = index_.find(tool);
+    if (known == index_.end()) return std::nullopt;
+    return notes_[known->second].second.text.diameter->mm(unit_of_program_mm);
+}
+
 std::vector<motion::DeclaredTool> ToolNotes::tools(double unit_of_program_mm, const std::string& source,
                                                    Warnings& warnings) const {
     std::vector<motion::DeclaredTool> tools;

@@ -36,6 +36,8 @@ class ToolNotes {
     // Returns the diameter for radius compensation, mm; none if no text states it, or if the text says that
     // the control corrects wear alone.
     std::optional<double> diameter_mm(int tool, double unit_of_program_mm) const;
+    // Returns the diameter that a text states for the tool, mm; none if no text does.
+    std::optional<double> stated_diameter_mm(int tool, double unit_of_program_mm) const;
 
     // Returns the tools in the order of their texts. Adds warnings where two texts disagree about one number.
     std::vector<motion::DeclaredTool> tools(double unit_of_program_mm, const std::string& source,

@@ -239,14 +239,74 @@ TEST(HeidenhainLanguage, TurnsAPlaneFromTheOneInForce) {
     expect_near(program.moves[0].end.axis, {1, 0, 0}, 1e-12);
 }
 
+TEST(HeidenhainLanguage, ReadsParametersAsListingsWriteThem) {
+    const std::string joined =
+        "CYCL DEF 200 DRILLING ~\n Q200=2 ;CLEARANCE ~\n Q201=-5 ~\n Q206=150 ~\n Q203=0\nM99\n";
+    // Without '~', as the listings of manuals have it.
+    const std::string listed =
+        "CYCL DEF 200 DRILLING\n Q200 = 2 ;CLEARANCE\nQ201=-5\nQ206=150\nQ203=0\nM99\n";
+    EXPECT_EQ(heights(conversational(after_start(listed))), heights(conversational(after_start(joined))));
+    // Block numbers with N, and a sheet of remarks before the program, as training systems write them.
+    const motion::Program numbered = conversational(
+        "( Set-up sheet\n(   T01: \"END MILL\"\nBEGIN PGM P MM\nN1 TOOL CALL 1 Z S2000 F500\n"
+        "N2 L X+0 Y+0 Z+10 R0 FMAX M3\nN3 L X+20\nN4 END PGM P MM\n");
+    EXPECT_EQ(feed_mm(numbered), 20);
+}
+
+TEST(HeidenhainLanguage, ReadsTheParametersOfACycleWhereItIsCalled) {
+    const motion::Program program = conversational(
+        after_start("CYCL DEF 201 REAMING Q200=2 Q201=-5 Q206=150 Q203=0\nM99\nQ201=-18\nL X+10 FMAX M99\n"));
+    // Down and up from the clearance of 2 mm, at feed.
+    EXPECT_NEAR(feed_mm(program), 2 * (2 + 5) + 2 * (2 + 18), 1e-9);
+}
+
+TEST(HeidenhainLanguage, RunsOldCyclesAtPatterns) {
+    // Cycle 1 from 2 mm above the surface: 7 mm down at each of two points.
+    const motion::Program program = conversational(after_start(
+        "CYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SET UP 2\nCYCL DEF 1.2 DEPTH -5\nCYCL DEF 1.3 PECKG 5\n"
+        "CYCL DEF 1.4 DWELL 0\nCYCL DEF 1.5 F100\nCYCL DEF 220 Q216=0 Q217=0 Q244=20 Q245=0 Q246=360 Q247=0 "
+        "Q241=2 Q200=2 Q203=-3 Q204=20\n"));
+    EXPECT_NEAR(feed_mm(program), 2 * 7, 1e-9);
+    double bottom = 0;
+    for (const motion::Move& move : program.moves) bottom = std::min(bottom, move.end.tip_mm.z);
+    EXPECT_NEAR(bottom, -8, 1e-12);
+}
+
+TEST(HeidenhainLanguage, LeavesOutCyclesOfTheMachinesMaker) {
+    const motion::Program program = conversational(after_start(
+        "CYCL DEF 392 ATC~\n  Q240=0 ;MODE~\n  Q241=1\nL X+5 Y+0 FMAX\nL Z+2 FMAX\nL X+9 F100\n"));
+    EXPECT_TRUE(warns_of(program, 4, "cycle 392 is one of the machine's maker"));
+    EXPECT_EQ(feed_mm(program), 4);
+}
+
+TEST(HeidenhainLanguage, TakesTheRadiusOfCyclesFromComments) {
+    const std::string bore = "CYCL DEF 208 BORE Q200=2 Q201=-4 Q206=90 Q334=2 Q203=0 Q335=20\n";
+    const std::string described =
+        "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z S2000 F500 ;END MILL D=8\n2 L X+0 Y+0 Z+10 R0 FMAX M3\n" + bore +
+        "4 M99\n5 END PGM P MM\n";
+    // The centre runs on a radius of 10 - 4 mm: half a circle to the wall and back, turns of 2 mm, one flat.
+    const auto widest = [](const motion::Program& program) {
+        double most = 0;
+        for (const motion::Move& move : program.moves) most = std::max(most, std::abs(move.end.tip_mm.x));
+        return most;
+    };
+    EXPECT_NEAR(widest(conversational(described)), 6, 1e-9);
+    // Nothing states it: 3 mm, or half of what is too narrow for that.
+    const motion::Program assumed = conversational(after_start(bore + "M99\n"));
+    EXPECT_TRUE(warns_of(assumed, 4, "nothing states the radius of tool 1: 3 mm are taken"));
+    EXPECT_NEAR(widest(assumed), 7, 1e-9);
+    const motion::Program narrow =
+        conversational(after_start("CYCL DEF 208 BORE Q200=2 Q201=-4 Q206=90 Q334=2 Q203=0 Q335=8\nM99\n"));
+    EXPECT_TRUE(warns_of(narrow, 4, "2 mm are taken"));
+    EXPECT_NEAR(widest(narrow), 2, 1e-9);
+}
+
 TEST(HeidenhainLanguage, RefusesWhatHasNoPath) {
     const std::string drilling = "CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=150 Q202=5 Q203=0\n";
     const Refusal refusals[] = {
         {after_start("L X+Q150 F100\nTCH PROBE 0.0 X\nL X+Q150\n"), 6, 4, "Q150 holds a value that only"},
         {after_start("TOOL CALL QS7 Z\n"), 4, 11, "the text QS7 is not known"},
         {after_start("SPL X+5 F100\n"), 4, 1, "SPL is not read"},
-        {after_start("CYCL DEF 208 BORE Q200=2 Q201=-5 Q206=90 Q334=1 Q203=0 Q335=9\nCYCL CALL\n"), 4, 1,
-         "cycle 208 needs the radius of tool 1"},
         {after_start("CYCL DEF 208 BORE Q200=2 Q201=-5 Q206=90 Q334=0 Q203=0 Q335=9\n"), 4, 1,
          "Q334 or Q335 is out of range"},
         {after_start("CYCL DEF 240 SPOT Q200=2 Q343=1 Q344=0 Q206=90 Q203=0\n"), 4, 1, "Q344 is zero"},

@@ -118,6 +118,11 @@ TEST(SiemensCycles, PocketsAndSlotsStayWithinTheirWalls) {
         EXPECT_GE(move.end.tip_mm.z, -4);
         EXPECT_EQ(move.feed_mm_per_min, move.end.tip_mm.z < move.start.tip_mm.z ? 100 : 300);
     }
+    // Nothing states the tool: a radius of 3 mm, or half of a pocket of 4 mm.
+    const motion::Program assumed = siemens("POCKET4(5,0,1,-4,20,100,50,4,0,0,300,100,0,2)\n");
+    EXPECT_TRUE(warns_of(assumed, 4, "nothing states the radius of tool 1: 3 mm are taken"));
+    EXPECT_NEAR(arc_mm(assumed), 2 * kPi * 17, 1e-9);
+    EXPECT_NEAR(arc_mm(siemens("POCKET4(5,0,1,-4,4,100,50,4,0,0,300,100,0,2)\n")), 2 * kPi * 2, 1e-9);
     // 60 x 30 with corners of 8, turned by 90 degrees: along its edge only.
     const motion::Program edge = milled("POCKET3(5,0,1,-4,60,30,8,0,0,90,0,0,0,300,100,0,2)\n");
     EXPECT_NEAR(arc_mm(edge), 2 * kPi * 3, 1e-9);
