@@ -64,6 +64,11 @@ bool is_silent(int cycle) {
     return cycle == 13 || cycle == 32 || cycle == 239;
 }
 
+// Cycles of the machine's maker (TNC 640, Programming of Machining Cycles: "machine-specific cycles").
+bool is_of_machine(int cycle) {
+    return cycle >= 300 && cycle < 400;
+}
+
 // The block from its first Q200=... on: the name of a cycle may have any characters.
 Line from_first_parameter(Line line, std::size_t at) {
     const std::string_view text = line.text;
@@ -76,8 +81,8 @@ Line from_first_parameter(Line line, std::size_t at) {
     return line;
 }
 
-// True for a line of a cycle that some posts write without '~' on the line before: Q206=150 alone, without a
-// block number.
+// True for a line of a cycle that some posts, and the listings of manuals, write without '~' on the line
+// before: Q206=150 alone, without a block number.
 bool is_parameter_line(std::string_view text) {
     text = trimmed(text);
     std::size_t digits = 1;
@@ -164,6 +169,7 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
         }
         default:
             if (is_silent(number)) return skip_continuation();
+            if (is_of_machine(number)) return leave_out_cycle(number);
             return in.refuse(column, "cycle " + std::to_string(number) + " is not read yet",
                              "let the CAM system write its path as L and C blocks");
     }
@@ -173,9 +179,10 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
 Result<void> Interpreter::read_parameters(LineReader& in, Cycle& cycle) {
     std::vector<Item> items;
     const Line rest = from_first_parameter(line_, static_cast<std::size_t>(in.column() - line_.column));
-    const bool is_list = line_.goes_on;
+    const bool goes_on = line_.goes_on;
     LineReader parameters(rest, source_name_, parameters_);
     if (auto done = all_items(parameters, items); !done) return done;
+    const bool is_list = goes_on || items.empty();
     while (is_list && at_ + 1 < lines_.size() && is_parameter_line(lines_[at_ + 1])) {
         ++at_;
         if (auto taken = take_line(); !taken) return taken;
@@ -204,6 +211,14 @@ Result<void> Interpreter::read_parameters(LineReader& in, Cycle& cycle) {
         }
     }
     return {};
+}
+
+// A cycle reads its parameters where it is called: Q201=-18 behind CYCL DEF changes the depth.
+void Interpreter::change_cycle(int parameter, double value) {
+    const auto known = cycle_.q.find(parameter);
+    if (cycle_.number < 200 || known == cycle_.q.end()) return;
+    const bool scaled = contains(kLengths, parameter) || contains(kFeeds, parameter);
+    known->second = value * (scaled ? unit_mm_ : 1);
 }
 
 Result<void> Interpreter::define_q_cycle(LineReader& in, int number) {
@@ -247,6 +262,21 @@ Result<void> Interpreter::check_cycle(const Cycle& cycle) const {
                             "give the infeed per turn and the diameter without a sign");
     }
     return {};
+}
+
+// Whether the cycle moves the tool, and when, only its machine knows.
+Result<void> Interpreter::leave_out_cycle(int number) {
+    if (auto done = close_contour(); !done) return done;
+    contour_.leave();
+    path_.lose(line_.number);
+    cycle_ = {};
+    cycle_.number = number;
+    if (passed_over_.insert("CYCL DEF " + std::to_string(number)).second) {
+        path_.warn(line_.number, "cycle " + std::to_string(number) +
+                                     " is one of the machine's maker: its moves are left out, and the tool's "
+                                     "place is unknown after it");
+    }
+    return skip_continuation();
 }
 
 // CYCL DEF 1.2 DEPTH-10: one value on each line.
@@ -295,6 +325,7 @@ Result<void> Interpreter::run_cycle(Place where) {
     }
     if (captured_) return path_.refuse(where, "a cycle is called within a contour", "call it behind LBL 0");
     if (cycle_.number == 12) return call_program(called_program_);
+    if (is_of_machine(cycle_.number)) return leave_out_cycle(cycle_.number);
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
     if (is_lost()) {

@@ -42,6 +42,7 @@ Result<void> Interpreter::assign(LineReader& in) {
     if (!value) return std::unexpected(value.error());
     if (!in.at_end()) return in.refuse(in.column(), "the formula does not end here", "correct it");
     parameters_.set(**index, *value);
+    change_cycle(**index, *value);
     return {};
 }
 

@@ -150,7 +150,7 @@ Result<void> Interpreter::execute(LineReader& in) {
         if (auto done = close_free_contour(); !done) return done;
     }
     const char first = line_.text[0];
-    if (first == '*' || first == '%' || first == '?') return {};
+    if (first == '*' || first == '%' || first == '?' || first == '(') return {};
     if (to_upper(first) == 'Q') return assign(in);
     if (in.take("BEGIN")) return begin();
     if (in.take("END")) {

@@ -81,6 +81,11 @@ struct Cycle {
     }
 };
 
+// Cycles of one value a line. They begin at their clearance, where the tool is.
+constexpr bool is_old_cycle(int cycle) {
+    return cycle == 1 || cycle == 2 || cycle == 4 || cycle == 5 || cycle == 17;
+}
+
 class Interpreter {
   public:
     Interpreter(std::string_view bytes, const GcodeOptions& options, MoveSink* sink);
@@ -206,6 +211,8 @@ class Interpreter {
 
     // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp, thread_milling.cpp, faces.cpp)
     Result<void> define_cycle(LineReader& in);
+    void change_cycle(int parameter, double value);
+    Result<void> leave_out_cycle(int number);
     Result<void> define_q_cycle(LineReader& in, int number);
     Result<void> define_old_cycle(LineReader& in, int number, int part);
     Result<void> check_cycle(const Cycle& cycle) const;

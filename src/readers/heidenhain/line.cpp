@@ -35,10 +35,11 @@ Line line_of(std::string_view text, int number) {
         whole = whole.substr(0, i);
         break;
     }
-    // A block number is digits and a blank.
-    std::size_t digits = 0;
+    // A block number is digits and a blank; some training systems write an N before them.
+    const std::size_t first = whole.size() > 1 && to_upper(whole[0]) == 'N' ? 1 : 0;
+    std::size_t digits = first;
     while (digits < whole.size() && is_digit(whole[digits])) ++digits;
-    if (digits > 0 && (digits == whole.size() || is_blank(whole[digits]))) whole.remove_prefix(digits);
+    if (digits > first && (digits == whole.size() || is_blank(whole[digits]))) whole.remove_prefix(digits);
     whole = trimmed(whole);
     line.text = whole;
     line.column = whole.empty() ? 1 : static_cast<int>(whole.data() - text.data()) + 1;

@@ -187,7 +187,7 @@ Result<void> Interpreter::travel(const Words& words, Vec3 to, const std::optiona
         path_.set_rotary(to_rad);
         if (path_.first(kMachinePosition)) {
             path_.warn(line_.number,
-                       "M91 goes to a place that only the machine knows: the path is left out until X, "
+                       "M91 and M92 go to places that only the machine knows: the path is left out until X, "
                        "Y and Z are known again");
         }
         return miscellaneous(words);

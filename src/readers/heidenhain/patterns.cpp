@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kMostPoints = 10'000;
 
+bool runs_at_points(int cycle) {
+    return is_old_cycle(cycle) || (cycle >= 200 && cycle < 300);
+}
+
 }  // namespace
 
 // A point of the program in the frame; z is added to the surface.
@@ -110,7 +114,7 @@ Result<void> Interpreter::add_pattern(const std::string& kind, const std::map<st
 
 // 220: points on a circle. 221: points on lines. They run the cycle defined before, at once.
 Result<void> Interpreter::run_point_pattern(const Cycle& pattern) {
-    if (cycle_.number < 200) {
+    if (!runs_at_points(cycle_.number)) {
         return path_.refuse(pattern.place, "a pattern without a cycle before it",
                             "write the drilling cycle before it");
     }
@@ -152,7 +156,7 @@ Result<void> Interpreter::run_point_pattern(const Cycle& pattern) {
 
 // Runs the cycle at points; between them the tool moves above the second clearance.
 Result<void> Interpreter::run_at(const std::vector<Vec3>& points, Place where) {
-    if (cycle_.number < 200) {
+    if (!runs_at_points(cycle_.number)) {
         return path_.refuse(where, "a pattern without a cycle before it",
                             "write the drilling cycle before it");
     }
@@ -169,6 +173,8 @@ Result<void> Interpreter::run_at(const std::vector<Vec3>& points, Place where) {
         const double above = surface + point.z + std::max(cycle_.at(200), cycle_.at(204));
         auto done = path_.tip().z < above ? go_to_height(above, kRapid) : Result<void>{};
         if (done) done = go_to_place(point.x, point.y, kRapid);
+        if (done && is_old_cycle(cycle_.number))
+            done = go_to_height(surface + point.z + cycle_.at(200), kRapid);
         if (done) done = run_cycle(where);
         cycle_.q[203] = surface;
         if (!done) return done;

@@ -62,7 +62,10 @@ Result<void> Interpreter::blank_form(LineReader& in) {
     Box3 box;
     box.include(*blank_min_);
     box.include(point);
-    if (!(box.volume() > 0)) return in.refuse(column, "the blank has no volume", "correct its corners");
+    if (!(box.volume() > 0)) {
+        path_.warn(line_.number, "BLK FORM has no volume: the stock is taken from the job");
+        return {};
+    }
     path_.program.stock = motion::DeclaredStock{box, line_.number};
     return {};
 }
