@@ -48,8 +48,10 @@ std::string amount(char word, double value) {
 }  // namespace
 
 MachineRun::MachineRun(const motion::Machine& machine)
-    : machine_(machine),
-      kinematics_(machine, machine.tool_length_mm.value_or(0)),
+    : given_(machine),
+      machine_(machine),
+      length_mm_(machine.tool_length_mm.value_or(0)),
+      kinematics_(machine, length_mm_),
       longer_(machine, 1),
       length_known_(machine.tool_length_mm.has_value()) {}
 
@@ -62,7 +64,19 @@ bool MachineRun::needs_tool_length(Vec3 rotary_rad) const {
 void MachineRun::set_tool_length(std::optional<double> length_mm) {
     if (!length_mm) length_mm = machine_.tool_length_mm;
     length_known_ = length_mm.has_value();
-    kinematics_ = motion::Kinematics(machine_, length_mm.value_or(0));
+    length_mm_ = length_mm.value_or(0);
+    kinematics_ = motion::Kinematics(machine_, length_mm_);
+}
+
+void MachineRun::let_zero_turn(bool turns) {
+    zero_turns_ = turns;
+    machine_ = given_;
+    if (turns) {  // as if the part stood with its zero on the axes that carry it
+        machine_.stock_mm = {};
+        for (motion::MachineAxis& axis : machine_.part_side) axis.pivot_mm = {};
+    }
+    kinematics_ = motion::Kinematics(machine_, length_mm_);
+    longer_ = motion::Kinematics(machine_, 1);
 }
 
 const std::vector<motion::Move>* MachineRun::run(const motion::MachineBlock& block, const motion::Move& like,
@@ -72,7 +86,7 @@ const std::vector<motion::Move>* MachineRun::run(const motion::MachineBlock& blo
         return nullptr;
     const int steps =
         std::clamp(static_cast<int>(std::ceil(largest_turn(block) / kTravelStepRad)), 1, kMostTravelSteps);
-    for (int i = 0; i <= steps; ++i) {
+    for (int i = 0; i <= steps && !zero_turns_; ++i) {
         check_travel(motion::joints_at(kinematics_, block, static_cast<double>(i) / steps), like.line);
     }
     if (block.tip_control && like.kind == motion::MoveKind::feed) check_turn(block, like.line);

@@ -24,6 +24,10 @@ class MachineRun {
 
     // Sets the tool length from the spindle nose; absent: the length of the machine definition.
     void set_tool_length(std::optional<double> length_mm);
+    // The zero of the coordinates goes with the part as its axes turn, wherever it lies on them (Haas G254,
+    // Fanuc G54.2: the control knows where). Travel is not checked then.
+    void let_zero_turn(bool turns);
+    bool zero_turns() const { return zero_turns_; }
     // True when the position of the tip at these rotary values depends on a tool length that is not known.
     bool needs_tool_length(Vec3 rotary_rad) const;
 
@@ -55,7 +59,9 @@ class MachineRun {
     void check_speed(const motion::MachineBlock& block, int line);
     void add_rushes(const std::string& source, Warnings& warnings) const;
 
-    motion::Machine machine_;
+    motion::Machine given_, machine_;  // as described, and as the coordinates see it
+    bool zero_turns_ = false;
+    double length_mm_ = 0;
     motion::Kinematics kinematics_;
     motion::Kinematics longer_;  // with a tool of 1 mm, to find out whether the length matters
     bool length_known_ = false;

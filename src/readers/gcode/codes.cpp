@@ -159,7 +159,12 @@ std::optional<GGroup> group_of_g(int tenths) {
             return GGroup::rigid_tap;
         case 531:
         case 536:
+        case 2530:  // Haas
             return GGroup::tool_to_plane;
+        case 542:
+        case 2540:  // Haas
+        case 2550:
+            return GGroup::turning_zero;
         case 80:   // look-ahead, with P
         case 90:   // exact stop of one block
         case 110:  // end of data input
@@ -180,7 +185,7 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 1030:  // limit of look-ahead (Haas)
         case 1130:  // polar interpolation off
         case 1870:  // smoothness (Haas)
-        case 2550:  // dynamic work offset off (Haas)
+        case 544:   // workpiece setting errors
             return GGroup::idle;
         default:
             if (tenths >= 1100 && tenths <= 1290 && tenths % 10 == 0) return GGroup::work_offset;

@@ -31,7 +31,8 @@ enum class GGroup {
     scaling,        // G50 G51
     mirror,         // G50.1 G51.1
     rotation,       // G68 G69, and tilted planes G68.2 G68.3 G268 G269
-    tool_to_plane,  // G53.1 G53.6
+    tool_to_plane,  // G53.1 G53.6 G253
+    turning_zero,   // G254 G255 G54.2
     corner,         // G36 G39 with R (Fagor)
     cylinder,       // G7.1 G107
     round_pocket,   // G12 G13

@@ -249,6 +249,9 @@ void pass_idle_codes(Command& command, State& state, Output& output) {
         state.single_quadrant = true;
         return;
     }
+    if (code->tenths == 544 && output.first(Note::idle_code, code->tenths)) {
+        output.warn(command.line(), "G54.4: the part is taken to stand as the program says, without errors");
+    }
     const bool has_places = code->tenths == 220 || code->tenths == 281 || code->tenths == 301;
     if (has_places) {
         for (const char letter : {'X', 'Y', 'Z', 'A', 'B', 'C', 'I', 'J', 'K'}) {
@@ -325,7 +328,9 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
         }
         save_or_restore(*code, state);
     }
-    return switch_tip_control(command, state, output);
+    if (auto done = switch_tip_control(command, state, output); !done) return done;
+    switch_turning_zero(command, state, output);
+    return {};
 }
 
 }  // namespace tribo::readers::gcode

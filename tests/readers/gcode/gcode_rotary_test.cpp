@@ -53,6 +53,27 @@ Vec3 unturned(Vec3 p, double a, double c) {
     return {std::cos(c) * q.x + std::sin(c) * q.y, -std::sin(c) * q.x + std::cos(c) * q.y, q.z};
 }
 
+TEST(GcodeRotary, LetsTheZeroTurnWithThePart) {
+    // B90 of a table turns the part by -90 degrees about y: what stands 5 above its zero lies along its +x.
+    const std::string head = "G21 G90 M3 F100\nG0 X0 Y0 Z50 B0 C0\n", turned = "B90\nX0 Y7 Z5\nG1 Z2\n";
+    for (const char* on_off : {"G254\n", "G54.2 P1\n"}) {
+        const motion::Program program =
+            on("haas-umc", head + on_off + turned + "G255\nG54.2 P0\n", {10, 20, 30});
+        const motion::ToolPose end = program.moves.back().end;
+        EXPECT_LT(distance(end.tip_mm, {2, 7, 0}), 1e-9);
+        EXPECT_LT(distance(end.axis, {1, 0, 0}), 1e-9);
+        expect_joined(program);
+    }
+    // A stock whose zero lies on the axes needs no such code.
+    EXPECT_LT(distance(on("haas-umc", head + turned).moves.back().end.tip_mm, {2, 7, 0}), 1e-9);
+    EXPECT_GT(distance(on("haas-umc", head + turned, {10, 20, 30}).moves.back().end.tip_mm, {2, 7, 0}), 1);
+    // Switching it moves nothing, and later words count from the machine again.
+    const motion::Program back =
+        on("haas-umc", head + "G254\n" + turned + "G255\nG91 G1 X1 Y0 Z0\n", {10, 20, 30});
+    EXPECT_LT(distance(back.moves.back().end.tip_mm, {2, 7, -1}), 1e-9);
+    expect_joined(back);
+}
+
 // A program without G43.5 whose I J K all have the length 1.
 TEST(GcodeRotary, TakesVectorsOfLengthOneAsTheToolsAxis) {
     const std::string text =

@@ -185,6 +185,32 @@ Result<void> switch_tip_control(const Command& command, State& state, Output& ou
     return {};
 }
 
+void switch_turning_zero(Command& command, State& state, Output& output) {
+    const auto code = command.g(GGroup::turning_zero);
+    if (!code) return;
+    bool turns = code->tenths == 2540;
+    if (code->tenths == 542) {
+        const Word* number = command.use('P');
+        turns = number != nullptr && number->value != 0;
+    }
+    if (!output.machine || output.machine->zero_turns() == turns) return;
+    MachineRun& machine = *output.machine;
+    const Vec3 at_rad = state.rotary.now_rad;
+    const bool names_tip = state.rotary.tip_control || state.tilt || at_rad == Vec3{};
+    if (!names_tip && !state.knows_tip()) {
+        state.known = {Known::lost, Known::lost, Known::lost};
+        state.lost_line = command.line();
+    }
+    const double turn_deg = state.active().turn_deg;
+    const Vec3 written = turned(state.tip_mm, turn_deg) + machine.kinematics().stock_mm();
+    const Vec3 tip_in_stock = machine.kinematics().pose({written, at_rad}).tip_mm;
+    machine.let_zero_turn(turns);
+    if (names_tip || !state.knows_tip()) return;
+    const motion::Kinematics& kinematics = machine.kinematics();
+    const Vec3 now = kinematics.with_tip(tip_in_stock, at_rad).linear_mm - kinematics.stock_mm();
+    state.tip_mm = turned(now, -turn_deg);
+}
+
 Result<void> read_rotary_words(Command& command, State& state, Output& output) {
     RotaryState& rotary = state.rotary;
     rotary.stated = false;

@@ -12,6 +12,10 @@ namespace tribo::readers::gcode {
 // of the coordinates changes.
 Result<void> switch_tip_control(const Command& command, State& state, Output& output);
 
+// G254 and G54.2 P1: from now on the zero of the coordinates goes with the part as its axes turn; G255 and
+// G54.2 P0 end that. Tip and axis stay.
+void switch_turning_zero(Command& command, State& state, Output& output);
+
 // Reads the words A B C of the block (with G43.5 of a line also I J K) as targets of the rotary axes. Without
 // a machine they are only noted.
 Result<void> read_rotary_words(Command& command, State& state, Output& output);
