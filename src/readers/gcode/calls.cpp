@@ -67,12 +67,12 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
     }
     const bool is_local = code.tenths == 970;
     if (number == nullptr || !is_whole(*number, 1)) {
-        return output.refuse(
-            line, number == nullptr ? code.column : number->column,
-            is_local ? "M97 needs the number of a line as P" : "M98 needs the number of a program as P",
-            is_local ? "write M97 P100 for N100" : "write M98 P1000 for O1000");
+        return output.refuse(line, number == nullptr ? code.column : number->column,
+                             code_text('M', code.tenths) + " needs the number of a " +
+                                 (is_local ? "line" : "program") + " as P",
+                             is_local ? "write M97 P100 for N100" : "write M98 P1000 for O1000");
     }
-    const auto times = times_of(command.use('L'), line, is_local ? "M97" : "M98", output);
+    const auto times = times_of(command.use('L'), line, code_text('M', code.tenths).c_str(), output);
     if (!times) return std::unexpected(times.error());
     if (*times == 0) return true;
     if (!is_local) {

@@ -236,6 +236,7 @@ std::optional<MGroup> group_of_m(int tenths) {
         case 970:
         case 980:
         case 990:
+        case 1980:
             return MGroup::subprogram;
         case 1280:
         case 1290:

@@ -75,6 +75,13 @@ Result<void> Command::add_g(const Word& word) {
 
 // Refuses codes whose meaning depends on the words beside them.
 Result<void> Command::settle() {
+    if (has_g(GGroup::mirror, 1000) && has('T')) {  // Brother: changes the tool, then positions
+        const Code change = *g(GGroup::mirror);
+        g_[static_cast<std::size_t>(GGroup::mirror)].reset();
+        m_[static_cast<std::size_t>(MGroup::tool)] = Code{60, change.column};
+        auto& motion = g_[static_cast<std::size_t>(GGroup::motion)];
+        if (!motion) motion = Code{0, change.column};
+    }
     if (next_tool_ != nullptr && !m(MGroup::tool)) {
         return refuse(line_, *next_tool_, "T stands twice in the block",
                       "delete one of the two or start a new line between them");

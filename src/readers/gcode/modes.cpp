@@ -309,7 +309,7 @@ Result<void> apply_modes(Command& command, State& state, Output& output) {
     if (auto done = switch_cylinder(command, state, output); !done) return done;
     if (command.m(MGroup::outputs) || command.m(MGroup::overrides) || command.m(MGroup::orientation)) {
         for (const char letter : {'P', 'Q', 'E'}) command.use(letter);
-        if (command.m(MGroup::orientation) && !command.g(GGroup::motion)) command.use('R');
+        if (command.m(MGroup::orientation) && !command.has_any("XYZ")) command.use('R');
     }
     if (const auto code = command.g(GGroup::distance)) state.incremental = code->tenths == 910;
     if (const auto code = command.g(GGroup::arc_distance)) {

@@ -242,5 +242,17 @@ TEST(GcodeReader, PlacesTurnedScaledMirroredAndPolarCoordinates) {
     EXPECT_NEAR(motion::path_length_mm(grown), 15 * kPi, 1e-9);
 }
 
+TEST(GcodeReader, ChangesTheToolByG100OfBrother) {
+    GcodeOptions options;
+    options.dialect = GcodeDialect::fanuc;
+    const motion::Program program = program_of(
+        "G21 G90 T1 M6\nM3 S1000 F100\nG0 X0 Y0 Z9\nG1 X1\nG100 T2 X5 Y0 Z9 G43 H2\nG1 X7\n", options);
+    ASSERT_EQ(program.moves.size(), 3U);
+    EXPECT_EQ(program.moves[0].tool, 1);
+    EXPECT_EQ(program.moves[1].kind, motion::MoveKind::rapid);
+    EXPECT_EQ(program.moves[2].tool, 2);
+    EXPECT_EQ(feed_mm(program), 1 + 2);
+}
+
 }  // namespace
 }  // namespace tribo::readers
