@@ -185,6 +185,7 @@ std::optional<GGroup> group_of_g(int tenths) {
         case 1030:  // limit of look-ahead (Haas)
         case 1130:  // polar interpolation off
         case 1870:  // smoothness (Haas)
+        case 470:   // text that the control engraves (Haas)
         case 544:   // workpiece setting errors
             return GGroup::idle;
         default:
@@ -266,9 +267,6 @@ Unread unread_g(int tenths) {
         case 320:
         case 330:
             return {"moves synchronised with the spindle", kPlainMoves};
-        case 470:
-            return {"text that the control engraves, or a move longer by two offsets",
-                    "let the CAM system write the letters, or the moves, as plain G0 to G3 moves"};
         case 450:
         case 460:
         case 480:

@@ -95,6 +95,11 @@ Result<void> Command::settle() {
         g_[static_cast<std::size_t>(GGroup::hole_pattern)] = units;
         g_[static_cast<std::size_t>(GGroup::units)].reset();
     }
+    if (has_g(GGroup::idle, 470) && has('D')) {
+        return fail_at({}, line_, g(GGroup::idle)->column,
+                       "G47 with D (a move longer by two offsets) is not read yet",
+                       "let the CAM system write it as a plain G0 to G3 move");
+    }
     if (has_g(GGroup::idle, 80) && !has('P')) {
         return fail_at({}, line_, g(GGroup::idle)->column, "G8 (lathe diameters) is not read yet",
                        "give a milling program");

@@ -252,7 +252,8 @@ void pass_idle_codes(Command& command, State& state, Output& output) {
     if (code->tenths == 544 && output.first(Note::idle_code, code->tenths)) {
         output.warn(command.line(), "G54.4: the part is taken to stand as the program says, without errors");
     }
-    const bool has_places = code->tenths == 220 || code->tenths == 281 || code->tenths == 301;
+    const bool engraves = code->tenths == 470;
+    const bool has_places = engraves || code->tenths == 220 || code->tenths == 281 || code->tenths == 301;
     if (has_places) {
         for (const char letter : {'X', 'Y', 'Z', 'A', 'B', 'C', 'I', 'J', 'K'}) {
             command.use(letter);
@@ -261,6 +262,19 @@ void pass_idle_codes(Command& command, State& state, Output& output) {
     }
     if (!command.g(GGroup::motion)) {
         for (const char letter : {'P', 'Q', 'R', 'E', 'I', 'J'}) command.use(letter);
+    }
+    if (engraves) {
+        for (Known& known : state.known) {
+            if (known == Known::yes) known = Known::lost;
+        }
+        state.lost_line = command.line();
+        if (output.first(Note::idle_code, code->tenths)) {
+            output.warn(
+                command.line(),
+                "G47 engraves letters of the control's own: they are left out, and the tool's place is "
+                "unknown after them");
+        }
+        return;
     }
     if (has_places && output.first(Note::idle_code, code->tenths)) {
         output.warn(command.line(), code_text('G', code->tenths) + " sets up the machine and moves nothing");

@@ -69,6 +69,8 @@ bool is_of_machine(int cycle) {
     return cycle >= 300 && cycle < 400;
 }
 
+constexpr int kEngraving = 225;  // a text in the letters of the control
+
 // The block from its first Q200=... on: the name of a cycle may have any characters.
 Line from_first_parameter(Line line, std::size_t at) {
     const std::string_view text = line.text;
@@ -125,6 +127,7 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
     switch (number) {
         case 1:
         case 2:
+        case 3:
         case 4:
         case 5:
         case 17:
@@ -162,17 +165,28 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
             return define_contour_cycle(in, number);
         case 247: {
             Cycle unused;
-            if (path_.first(kDatum)) {
-                path_.warn(line_.number, "CYCL DEF 247: the preset is taken to be the stock's zero");
-            }
+            if (auto done = take_preset("CYCL DEF 247"); !done) return done;
             return read_parameters(in, unused);
         }
         default:
             if (is_silent(number)) return skip_continuation();
             if (is_of_machine(number)) return leave_out_cycle(number);
+            if (number == kEngraving) {
+                cycle_ = {};
+                cycle_.number = number;
+                cycle_at_every_position_ = false;
+                return skip_continuation();
+            }
             return in.refuse(column, "cycle " + std::to_string(number) + " is not read yet",
                              "let the CAM system write its path as L and C blocks");
     }
+}
+
+Result<void> Interpreter::take_preset(const std::string& block) {
+    if (path_.first(kDatum)) {
+        path_.warn(line_.number, block + ": the preset is taken to be the stock's zero");
+    }
+    return {};
 }
 
 // Reads Q200=2 ... on this line and on the lines joined by '~'.
@@ -273,8 +287,9 @@ Result<void> Interpreter::leave_out_cycle(int number) {
     cycle_.number = number;
     if (passed_over_.insert("CYCL DEF " + std::to_string(number)).second) {
         path_.warn(line_.number, "cycle " + std::to_string(number) +
-                                     " is one of the machine's maker: its moves are left out, and the tool's "
-                                     "place is unknown after it");
+                                     (number == kEngraving ? " engraves letters of the control's own"
+                                                           : " is one of the machine's maker") +
+                                     ": its moves are left out, and the tool's place is unknown after it");
     }
     return skip_continuation();
 }
@@ -325,7 +340,7 @@ Result<void> Interpreter::run_cycle(Place where) {
     }
     if (captured_) return path_.refuse(where, "a cycle is called within a contour", "call it behind LBL 0");
     if (cycle_.number == 12) return call_program(called_program_);
-    if (is_of_machine(cycle_.number)) return leave_out_cycle(cycle_.number);
+    if (is_of_machine(cycle_.number) || cycle_.number == kEngraving) return leave_out_cycle(cycle_.number);
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
     if (is_lost()) {

@@ -15,7 +15,7 @@ namespace {
 
 // Blocks without effect on the path. What SEL and CONTOUR choose is refused where it is called.
 constexpr std::string_view kSilentBlocks[] = {"OPEN",       "CLOSE", "SEL", "CONTOUR",
-                                              "MONITORING", "COUNT", "AFC"};
+                                              "MONITORING", "COUNT", "AFC", "SECTION"};
 
 // BEGIN PGM NAME MM, in upper case.
 std::string name_of_program(std::string_view text) {
@@ -193,6 +193,12 @@ Result<void> Interpreter::execute(LineReader& in) {
         contour_.leave();
         path_.lose(line_.number);
         return pass_over("TCH PROBE");
+    }
+    if (in.take("PRESET")) {
+        if (!in.take("SELECT"))
+            return in.refuse(in.column(), "only PRESET SELECT is read",
+                             "write the place of the zero with TRANS DATUM");
+        return take_preset("PRESET SELECT");
     }
     if (in.take("DECLARE")) return in.take("STRING") ? assign_text(in) : pass_over("DECLARE");
     for (const std::string_view word : kSilentBlocks) {

@@ -66,7 +66,7 @@ enum Note {
 inline constexpr double kRapid = std::numeric_limits<double>::infinity(), kFastFeed = 99'999;
 
 // Keys of Cycle::q beside the Q numbers: the feed of a line .n of the cycles 4 and 5, and their direction.
-inline constexpr int kFeedOfPart = 10'000, kTurn = 20'000;
+inline constexpr int kFeedOfPart = 10'000, kTurn = 20'000, kAlongY = 20'001;
 
 // The cycle in force: its number, and its parameters by Q number. The old cycles 1, 2 and 17 keep their
 // words .1 to .5 under 1 to 5.
@@ -83,7 +83,7 @@ struct Cycle {
 
 // Cycles of one value a line. They begin at their clearance, where the tool is.
 constexpr bool is_old_cycle(int cycle) {
-    return cycle == 1 || cycle == 2 || cycle == 4 || cycle == 5 || cycle == 17;
+    return (cycle >= 1 && cycle <= 5) || cycle == 17;
 }
 
 class Interpreter {
@@ -213,6 +213,7 @@ class Interpreter {
     Result<void> define_cycle(LineReader& in);
     void change_cycle(int parameter, double value);
     Result<void> leave_out_cycle(int number);
+    Result<void> take_preset(const std::string& block);
     Result<void> define_q_cycle(LineReader& in, int number);
     Result<void> define_old_cycle(LineReader& in, int number, int part);
     Result<void> check_cycle(const Cycle& cycle) const;

@@ -243,6 +243,11 @@ Result<void> Interpreter::machine_function(LineReader& in) {
     }
     for (const std::string_view word : {"PARAXCOMP", "PARAXMODE", "POLARKIN", "TURNDATA", "CORRDATA"}) {
         if (in.take(word)) {
+            // Switched off, shown alone, or corrections of the tool, which is measured right.
+            for (const std::string_view idle : {"OFF", "RESET", "DISPLAY", "TCS"}) {
+                if (in.take(idle))
+                    return pass_over("FUNCTION " + std::string(word) + " " + std::string(idle));
+            }
             return in.refuse(column, "FUNCTION " + std::string(word) + " is not read",
                              "write the path without it");
         }

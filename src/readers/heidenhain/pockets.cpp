@@ -20,7 +20,7 @@ bool is_of_tnc_426(int number) {
     return number >= 210 && number <= 215;
 }
 bool is_slot(int number) {
-    return number == 210 || number == 253;
+    return number == 3 || number == 210 || number == 253;
 }
 bool is_curved(int number) {
     return number == 211 || number == 254;
@@ -32,7 +32,7 @@ bool is_stud(int number) {
 }  // namespace
 
 bool Interpreter::is_pocket(int number) {
-    return number == 4 || number == 5 || is_of_tnc_426(number) || (number >= 251 && number <= 254) ||
+    return (number >= 3 && number <= 5) || is_of_tnc_426(number) || (number >= 251 && number <= 254) ||
            (number >= 256 && number <= 258);
 }
 
@@ -43,6 +43,9 @@ Result<void> Interpreter::define_old_pocket(LineReader& in, int part) {
     for (const Item& item : items) {
         if (item.name == "DR") {
             cycle_.q[kTurn] = item.sign;
+        } else if (cycle_.number == 3 && part == 4 && item.name == "Y" && item.value) {
+            cycle_.q[kAlongY] = 1;
+            cycle_.q[part] = *item.value * unit_mm_;
         } else if (item.name == "F" && item.value) {
             cycle_.q[kFeedOfPart + part] = *item.value * unit_mm_;
         } else if (item.value) {
@@ -63,13 +66,18 @@ Result<control::Pocket> Interpreter::pocket_of_cycle() {
     pocket.depths = {std::max(near, surface + cycle_.at(204)), surface, near, surface + depth};
     pocket.infeed = std::abs(is_old ? cycle_.at(3) : cycle_.at(202));
     pocket.plunge = is_old ? cycle_.at(kFeedOfPart + 3) : cycle_.at(206);
-    pocket.feed = is_old ? cycle_.at(kFeedOfPart + (number == 4 ? 6 : 5)) : cycle_.at(207);
+    pocket.feed = is_old ? cycle_.at(kFeedOfPart + (number == 5 ? 5 : 6)) : cycle_.at(207);
     pocket.clockwise = is_old ? cycle_.at(kTurn) < 0 : cycle_.at(351) < 0;
     if (is_stud(number)) pocket.clockwise = !pocket.clockwise;  // climbing, outside
     pocket.centre = path_.tip();
     if (is_of_tnc_426(number) || (number == 254 && cycle_.at(367) == 0))
         pocket.centre = in_frame(cycle_.at(216), cycle_.at(217), pocket.centre.z);
     switch (number) {
+        case 3:
+            pocket.half_length = std::abs(cycle_.at(4)) / 2;
+            pocket.half_width = pocket.corner = std::abs(cycle_.at(5)) / 2;
+            pocket.angle_rad = cycle_.at(kAlongY) * math::kPi / 2;
+            break;
         case 4:
             pocket.half_length = std::abs(cycle_.at(4)) / 2;
             pocket.half_width = std::abs(cycle_.at(5)) / 2;
@@ -166,6 +174,10 @@ Result<void> Interpreter::mill_pocket_cycle() {
     pocket->radius = radius;
     pocket->step = cycle_.number >= 200 ? std::abs(cycle_.at(370)) * radius : 0;
     pocket->centre = middle_of(*pocket);
+    if (cycle_.number == 3) {  // the tool stands at an end of the slot; the sign of its length leads away
+        const double to_middle = std::copysign(pocket->half_length - radius, cycle_.at(4));
+        (cycle_.at(kAlongY) > 0 ? pocket->centre.y : pocket->centre.x) += to_middle;
+    }
     const bool goes_round = is_stud(cycle_.number);
     const double most = std::min(pocket->half_length, pocket->half_width) - radius - pocket->allowance;
     if (!(pocket->half_width > 0) || !(pocket->half_length > 0) || (!goes_round && !(most >= kFits))) {

@@ -124,6 +124,8 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
             return in.refuse(item.column, "M without a whole number", "correct it");
         }
         words.m.push_back(static_cast<int>(*item.value));
+    } else if (rotary != std::string_view::npos && !item.value && !words.m.empty()) {
+        return {};  // M138 A C, M116 B: the axes that the function is for
     } else if (item.name == "MB") {
         if (item.value) words.retract = *item.value * unit_mm_;
     } else if (item.name == "MBMAX") {

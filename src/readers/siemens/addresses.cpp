@@ -14,11 +14,11 @@ constexpr std::string_view kAxes = "XYZ", kParallel = "UVW", kRotary = "ABC", kC
 
 // Addresses without effect on the path: feeds of single axes and corners, smoothing, speeds, limits.
 constexpr std::string_view kSilent[] = {
-    "ADIS",  "ADISPOS", "STOLF",   "OTOL",    "CTOL",  "CTOLG0", "FRC",    "FRCM",   "FD",
-    "FDA",   "FP",      "OVR",     "OVRRAP",  "OVRA",  "SPOS",   "SPOSA",  "LIMS",   "SVC",
-    "DL",    "DITS",    "DITE",    "VELOLIM", "ACC",   "FA",     "FL",     "FXS",    "SF",
-    "ANGLE", "DISC",    "SCC",     "TOWER",   "MTL",   "SR",     "SRA",    "ST",     "STA",
-    "G",     "FMA",     "JERKLIM", "ACCLIM",  "DISCL", "ORIRES", "CUTMOD", "OTOLG0", "SCPARA",
+    "ADIS",   "ADISPOS", "STOLF",   "OTOL",   "CTOL",   "ATOL",   "CTOLG0", "FRC",  "FRCM",  "FD",
+    "FDA",    "FP",      "OVR",     "OVRRAP", "OVRA",   "SPOS",   "SPOSA",  "LIMS", "SVC",   "DL",
+    "DITS",   "DITE",    "VELOLIM", "ACC",    "FA",     "FL",     "FXS",    "SF",   "ANGLE", "DISC",
+    "SCC",    "TOWER",   "MTL",     "SR",     "SRA",    "ST",     "STA",    "G",    "FMA",   "JERKLIM",
+    "ACCLIM", "DISCL",   "ORIRES",  "CUTMOD", "OTOLG0", "SCPARA",
 };
 
 constexpr std::pair<std::string_view, Measure> kMeasures[] = {

@@ -19,7 +19,6 @@ struct Refused {
 constexpr std::string_view kPlain = "let the CAM system write the path with G0 to G3";
 // Names of cycles that are not read, by their beginnings.
 constexpr Refused kRefused[] = {
-    {"CYCLE60", "engraving, of letters that the control has", kPlain},
     {"CYCLE64", "holes that the control places in a contour", "write CYCLE83 with MCALL at their places"},
     {"CYCLE78", "a thread with its hole", "write CYCLE83, and CYCLE70 for the thread"},
     {"CYCLE899", "a trochoidal slot that the control lays", kPlain},
@@ -28,6 +27,12 @@ constexpr Refused kRefused[] = {
     {"CYCLE95", "a cycle of a lathe", "only milling is read"},
     {"CYCLE96", "a cycle of a lathe", "only milling is read"},
 };
+
+// Measuring cycles of parts and tools: CYCLE97x, 982, 994 to 998.
+bool is_probing(std::string_view name) {
+    if (name.size() != 8 || !name.starts_with("CYCLE9")) return false;
+    return name[6] == '7' || name == "CYCLE982" || (name[6] == '9' && name[7] >= '4' && name[7] <= '8');
+}
 
 }  // namespace
 
@@ -59,13 +64,15 @@ Result<bool> Interpreter::run_cycle(const Call& call) {
         return ran(run_pattern(call));
     }
     const Place where{call.line, call.column};
-    if (name.size() == 8 && name.starts_with("CYCLE97")) {
+    const bool probes = is_probing(name);
+    if (probes || name == "CYCLE60") {
         if (auto done = close_contour(); !done) return std::unexpected(done.error());
         contour_.leave();
         path_.lose(line_number());
-        if (passed_over_.insert("CYCLE97").second) {
-            path_.warn(line_number(), "the touch probe's moves (" + name +
-                                          ") are left out, and the tool's place is unknown after them");
+        const std::string what = probes ? "the touch probe's moves" : "letters of the control's own";
+        if (passed_over_.insert(what).second) {
+            path_.warn(line_number(),
+                       what + " (" + name + ") are left out, and the tool's place is unknown after them");
         }
         return true;
     }

@@ -89,6 +89,16 @@ TEST(HeidenhainPockets, of_old_controls_have_sides_and_a_radius) {
     EXPECT_LT(arc->arc->normal.z, 0);
 }
 
+TEST(HeidenhainPockets, of_old_slots_begin_at_an_end) {
+    // 50 by 14 along -Y with a tool of 10: its centre runs 40 mm on, and 2 mm to both sides.
+    const std::string slot =
+        "CYCL DEF 3.0 NUTENFRAESEN\nCYCL DEF 3.1 ABST 2\nCYCL DEF 3.2 TIEFE -5\nCYCL DEF 3.3 ZUSTLG 5 F80\n"
+        "CYCL DEF 3.4 Y-50\nCYCL DEF 3.5 X14\nCYCL DEF 3.6 F100";
+    const Box3 box = reached(milled(slot, "L X+50 Y+40 Z+2 R0 FMAX M99\n"));
+    EXPECT_LT(distance(box.min, {48, 0, -5}), 1e-9);
+    EXPECT_LT(distance(box.max, {52, 40, -5}), 1e-9);
+}
+
 TEST(HeidenhainPockets, go_round_studs_from_outside) {
     const motion::Program program = milled(
         "CYCL DEF 257 CIRCULAR STUD Q223=20 Q222=28 Q368=0 Q207=500 Q351=+1 Q201=-5 Q202=5 Q206=150 Q200=2 "

@@ -278,7 +278,7 @@ TEST(Heidenhain, RefusesWithPlaceCauseAndRemedy) {
         {"3 CALL OTHER\n", "p.h:4:8: error: only CALL LBL and CALL PGM are read"},
         {"3 RND R5\n", "p.h:4:7: error: RND without a path function before it"},
         {"3 CYCL CALL\n", "p.h:4:12: error: a cycle is called, but none is defined"},
-        {"3 CYCL DEF 225 ENGRAVING\n", "p.h:4:12: error: cycle 225 is not read yet"},
+        {"3 CYCL DEF 224 PATTERN\n", "p.h:4:12: error: cycle 224 is not read yet"},
         {"3 CYCL DEF 200 DRILLING ~\nQ200=2 ~\nQ201=-5 ~\nQ206=100\n",
          "p.h:4:3: error: cycle 200 lacks Q203"},
         {"3 CYCL DEF 200 DRILLING Q200=2 Q201=5 Q206=100 Q203=0\n", "the depth Q201 is not below zero"},
