@@ -58,6 +58,23 @@ TEST(FanucWords, of_okuma_that_have_none_are_refused) {
 
 const std::string kFagor = "%PIECE,MX,\nN10 G90 G71 G17 F100 S500 M3\nN20 G0 X0 Y0 Z5\n";
 
+TEST(FanucWords, of_okuma_shift_turn_and_place_holes) {
+    // The coordinates at (10, 0), turned by a quarter: 5 along their X is 5 along Y.
+    const motion::Program turned =
+        read(kOkuma + "G11 X10 Y0 P90\nG1 X5 Y0\nG10\nX1 Y0\nG41 X4 DA\nG40 X0\n", OtherControl::okuma);
+    EXPECT_LT(distance(turned.moves.at(0).end.tip_mm, {10, 5, 5}), 1e-9);
+    EXPECT_LT(distance(turned.moves.at(1).end.tip_mm, {1, 0, 5}), 1e-9);
+    // Four holes on a circle of 10 mm, the first at 90 degrees; NCYL keeps the cycle from drilling before.
+    const motion::Program holes =
+        read(kOkuma + "NCYL G81 X0 Y0 Z-1 R1 F50\nBHC X0 Y0 I10 J90 K4\nG80\n", OtherControl::okuma);
+    EXPECT_NEAR(feed_mm(holes), 4 * 2, 1e-12);
+    const auto first = std::find_if(holes.moves.begin(), holes.moves.end(), [](const motion::Move& move) {
+        return move.kind == motion::MoveKind::feed;
+    });
+    ASSERT_NE(first, holes.moves.end());
+    EXPECT_LT(distance(first->end.tip_mm, {0, 10, -1}), 1e-9);
+}
+
 TEST(FanucWords, of_fagor_have_parameters_jumps_and_subroutines) {
     const motion::Program program =
         read(kFagor +
@@ -76,8 +93,17 @@ TEST(FanucWords, of_fagor_mean_what_fagor_means) {
     const motion::Program mirrored = read(kFagor + "G11\nG1 X10 Y5\nG10\nX10\n", OtherControl::fagor);
     EXPECT_EQ(mirrored.moves.at(0).end.tip_mm, (Vec3{-10, 5, 5}));
     EXPECT_EQ(mirrored.moves.at(1).end.tip_mm, (Vec3{10, 5, 5}));
-    for (const char* text : {"G8 R5 Q5\n", "G9 X5 Y5 I1\n", "G93 I1 J1\n", "G69 X1 Z2 I-9\n"}) {
-        EXPECT_NE(fault(kFagor + text, OtherControl::fagor).find("FAGORG"), std::string::npos) << text;
+    // G73 turns the coordinates, until it stands alone: (10, 0) about (0, 0) by a quarter.
+    const motion::Program turned = read(kFagor + "G73 Q90\nG1 X10 Y0\nG73\nX10 Y0\n", OtherControl::fagor);
+    EXPECT_LT(distance(turned.moves.at(0).end.tip_mm, {0, 10, 5}), 1e-9);
+    EXPECT_LT(distance(turned.moves.at(1).end.tip_mm, {10, 0, 5}), 1e-9);
+    // What means something else on a Fanuc control is refused by its name: pockets, patterns, the home
+    // search.
+    for (const char* text :
+         {"G8 R5 Q5\n", "G9 X5 Y5 I1\n", "G93 I1 J1\n", "G69 X1 Z2 I-9\n", "G74 X Y\n",
+          "G87 Z2 I-10 J20 K10 B3\n", "G88 Z2 I-10 J20 B3\n", "G63 X5 Y0 I30 K3\n", "G73 Q90\nG73 Q10\n"}) {
+        EXPECT_NE(fault(kFagor + text, OtherControl::fagor).find("of Fagor controls"), std::string::npos)
+            << text;
     }
     EXPECT_NE(fault(kFagor + "(RPT 10,20)\n", OtherControl::fagor).find("'RPT'"), std::string::npos);
     // A comment stays one.
@@ -160,24 +186,24 @@ TEST(FanucWords, of_num_have_corners_cycles_and_dwells) {
 
 TEST(FanucWords, of_num_that_have_none_are_refused) {
     const std::pair<const char*, const char*> cases[] = {
-        {"G45 X1 Y1 Z-5 EX9 EY9\n", "GNUM45"},
-        {"G1 X5 EA30\n", "GNUMEA"},
-        {"L1=L2+L3*2\n", "GNUMORDER"},
-        {"L1=SL2\n", "GNUMFUNCTION"},
-        {"G79 L1 5 N10\n", "GNUM79"},
-        {"G77 H5 N1 N2\n", "GNUM77"},
-        {"E60001=5\n", "GNUM"},
-        {"G81 X1 Z-5 EH2\n", "GNUMEH"},
-        {"G83 Z-5 ER1 ES3\n", "GNUMES"},
-        {"G59 I1 J1 ED30\n", "GNUM59"},
-        {"G53\n", "GNUM53"},
-        {"G51 X-\n", "GNUM51"},
-        {"G16 P+\n", "GNUM16"},
-        {"G1 X5 EBL1\n", "GNUMEB"},
-        {"G10 X5\n", "GNUM10"},
-        {"G12\n", "GNUM12"},
-        {"ED45\n", "GNUMED"},
-        {"G88 X1 Z-5 ER1\n", "GNUM88"},
+        {"G45 X1 Y1 Z-5 EX9 EY9\n", "G45 of NUM"},
+        {"G1 X5 EA30\n", "EA of NUM"},
+        {"L1=L2+L3*2\n", "ORDER of NUM"},
+        {"L1=SL2\n", "FUNCTION of NUM"},
+        {"G79 L1 5 N10\n", "G79 of NUM"},
+        {"G77 H5 N1 N2\n", "G77 of NUM"},
+        {"E60001=5\n", "of NUM"},
+        {"G81 X1 Z-5 EH2\n", "EH of NUM"},
+        {"G83 Z-5 ER1 ES3\n", "ES of NUM"},
+        {"G59 I1 J1 ED30\n", "G59 of NUM"},
+        {"G53\n", "G53 of NUM"},
+        {"G51 X-\n", "G51 of NUM"},
+        {"G16 P+\n", "G16 of NUM"},
+        {"G1 X5 EBL1\n", "EB of NUM"},
+        {"G10 X5\n", "G10 of NUM"},
+        {"G12\n", "G12 of NUM"},
+        {"ED45\n", "ED of NUM"},
+        {"G88 X1 Z-5 ER1\n", "G88 of NUM"},
     };
     for (const auto& [text, name] : cases) {
         EXPECT_NE(fault(kNum + "G79 N5\nN5\n" + text, OtherControl::num).find(name), std::string::npos)

@@ -259,6 +259,12 @@ class Translator {
             return true;
         } else if (takes("NOEX")) {
             return true;
+        } else if (takes("DA") || takes("DB") || takes("DC")) {
+            if (at_ >= in_.size() || !is_name(in_[at_])) return true;  // an offset of the tool in the spindle
+        } else if (takes("BHC")) {  // holes on a circle: I its radius, J the first angle, K their number
+            const std::string count = take_word('K');
+            out_ += "G70" + (count.empty() ? std::string() : "L" + count);
+            return true;
         } else if (takes("NCYL")) {  // the place alone: without the cycle's hole
             const bool begins =
                 in_.find("G8", at_) != std::string::npos || in_.find("G7", at_) != std::string::npos;
@@ -446,7 +452,12 @@ class Translator {
             const std::string offset = take_word('H');
             out_ += "G43" + (all_digits(offset) ? "H" + offset : std::string());
         } else if (number == "71") {
-            take_word('Z');  // the level to which M53 returns
+            take_word('Z');           // the level to which M53 returns
+        } else if (number == "11") {  // a shift and a turn of the coordinates
+            const std::string angle = take_value('P');
+            out_ += "G68.2I0J0K" + (angle.empty() ? std::string("0") : angle);
+        } else if (number == "10") {
+            out_ += "G69";
         } else if (number == "4") {
             const std::string seconds = take_word('F');
             out_ += "G4" + (seconds.empty() ? std::string() : "X" + seconds);
@@ -457,10 +468,22 @@ class Translator {
         }
     }
 
+    // G73 with an angle while one is in force: the control adds them.
+    bool turns_again() const { return is_turned_ && in_.find('Q', at_) != std::string::npos; }
+
     void fagor_code(const std::string& number) {
-        constexpr std::array<std::string_view, 7> refused{"20", "37", "38", "69", "72", "83", "93"};
+        constexpr std::array<std::string_view, 24> refused{"20", "37", "38", "60", "61", "62", "63", "64",
+                                                           "65", "66", "67", "68", "69", "72", "74", "75",
+                                                           "76", "77", "78", "79", "83", "87", "88", "93"};
         constexpr std::array<std::string_view, 6> cycles{"81", "82", "84", "85", "86", "89"};
-        if (std::find(refused.begin(), refused.end(), number) != refused.end()) {
+        const bool is_refused = std::find(refused.begin(), refused.end(), number) != refused.end();
+        if (number == "73" && !turns_again()) {  // the coordinates turn by Q about I J; alone: no longer
+            const std::string angle = take_value('Q'), x = take_value('I'), y = take_value('J');
+            is_turned_ = !angle.empty();
+            out_ += angle.empty()
+                        ? "G69"
+                        : "G68X" + (x.empty() ? "0" : x) + "Y" + (y.empty() ? "0" : y) + "R" + angle;
+        } else if (is_refused || number == "73") {
             out_ += "FAGORG" + number;  // means something else on a Fanuc control: refused by this name
         } else if (number == "6") {
             has_absolute_centre_ = true;
@@ -487,7 +510,7 @@ class Translator {
 
     bool is_okuma_, says_centres_;
     bool has_centre_ = false, has_absolute_centre_ = false;  // of the block
-    bool cycle_on_ = false;
+    bool cycle_on_ = false, is_turned_ = false;
     std::string in_, out_;
     std::size_t at_ = 0;
     std::map<std::string, int> names_, labels_;

@@ -16,6 +16,15 @@ bool is_tape_character(char c) {
     return (c >= 0x11 && c <= 0x14) || c == 0x1A || c == 0x7F;
 }
 
+// The code of another control for which Fanuc has none (control/fanuc_words.hpp): FAGORG87, GNUM45; else
+// empty.
+std::string code_of_another(std::string_view name) {
+    if (name.starts_with("FAGORG")) return std::string(name.substr(5)) + " of Fagor controls";
+    if (!name.starts_with("GNUM") || name.size() == 4) return {};
+    const std::string_view code = name.substr(4);
+    return (is_digit(code[0]) ? "G" : "") + std::string(code) + " of NUM controls";
+}
+
 }  // namespace
 
 Lexer::Lexer(std::string_view bytes, std::string source_name, bool skip_deletable,
@@ -319,9 +328,13 @@ std::unexpected<Error> Lexer::refuse_number(char letter, std::size_t word, bool 
         while (end < line.size() && (is_letter(line[end]) || is_digit(line[end])) && end - word < 20) {
             ++end;
         }
-        return cursor_.refuse(
-            word, "'" + std::string(line.substr(word, end - word)) + "' is not a letter with a number",
-            std::string(kOtherDialect) + ", or put text into a comment");
+        const std::string_view name = line.substr(word, end - word);
+        if (const std::string code = code_of_another(name); !code.empty()) {
+            return cursor_.refuse(word, code + " is not read yet",
+                                  "let the CAM system write it as plain G0 to G3 moves");
+        }
+        return cursor_.refuse(word, "'" + std::string(name) + "' is not a letter with a number",
+                              std::string(kOtherDialect) + ", or put text into a comment");
     }
     return cursor_.refuse(word, std::string("no number after ") + letter,
                           "add the number or delete the letter");
