@@ -36,6 +36,7 @@ enum class GGroup {
     corner,         // G36 G39 with R (Fagor)
     cylinder,       // G7.1 G107
     round_pocket,   // G12 G13
+    pocket,         // G150 with its words
     rigid_tap,      // G33.1
     idle,           // codes that move nothing; a block may have several
     count

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace tribo::readers::gcode {
 namespace {
@@ -105,9 +106,10 @@ Result<void> Command::settle() {
                        "give a milling program");
     }
     if (has_g(GGroup::idle, 1500) && has_any("PIJKQ")) {
-        return fail_at({}, line_, g(GGroup::idle)->column,
-                       "G150 (a pocket that the control mills by itself) is not read yet",
-                       "let the CAM system write it as plain G0 to G3 moves");
+        g_[static_cast<std::size_t>(GGroup::pocket)] =
+            std::exchange(g_[static_cast<std::size_t>(GGroup::idle)], {});
+        if (auto& side = g_[static_cast<std::size_t>(GGroup::cutter_side)]; side && side->tenths != 400)
+            pocket_side_ = std::exchange(side, {})->tenths;
     }
     const auto cycle = g(GGroup::motion);
     if (g(GGroup::cycle_end) && cycle && cycle->tenths >= 730) {

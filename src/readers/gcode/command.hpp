@@ -37,6 +37,8 @@ class Command {
     // M codes without a group, in order: the machine has them, the path does not.
     const std::vector<Code>& unknown_m() const { return unknown_m_; }
 
+    // G41 or G42 beside G150, in tenths: the side of its contour.
+    std::optional<int> side_of_pocket() const { return pocket_side_; }
     bool names_next_tool() const { return next_tool_ != nullptr; }
     // True when the block has the word; does not count as use of the word.
     bool has(char letter) const { return words_[index(letter)] != nullptr; }
@@ -70,7 +72,8 @@ class Command {
     const Block* block_ = nullptr;
     std::array<const Word*, 26> words_{};
     const Word* next_tool_ = nullptr;  // a second T
-    std::uint32_t used_ = 0;           // bit per letter
+    std::optional<int> pocket_side_;
+    std::uint32_t used_ = 0;  // bit per letter
     std::array<std::optional<Code>, static_cast<std::size_t>(GGroup::count)> g_;
     std::array<std::optional<Code>, static_cast<std::size_t>(MGroup::count)> m_;
     std::vector<Code> unknown_m_;

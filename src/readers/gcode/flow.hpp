@@ -37,6 +37,8 @@ class Flow {
                               const Arguments* arguments = nullptr);
     // True if the text has the program of that number.
     Result<bool> has_program(const Word& number);
+    // True if the program has a line of that number.
+    Result<bool> has_lines(const Word& number, int line);
     // M97: the same for lines of this program, from N to M99, or to the line N of `last`.
     Result<void> call_lines(const Word& number, const Word* last, std::int64_t times, int line);
     // Returns from the calls whose last line has just run.

@@ -71,6 +71,11 @@ Result<void> Flow::end_macro_loop(const Block& block) {
                   "write WHILE [...] DO" + std::to_string(number) + " before the loop");
 }
 
+Result<bool> Flow::has_lines(const Word& number, int line) {
+    if (auto known = require_places(); !known) return std::unexpected(known.error());
+    return places_->find_number(static_cast<int>(number.value), line) != nullptr;
+}
+
 Result<void> Flow::call_lines(const Word& number, const Word* last, std::int64_t times, int line) {
     if (auto known = require_places(); !known) return known;
     const int wanted = static_cast<int>(number.value);

@@ -13,6 +13,7 @@
 #include "readers/gcode/modes.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/corners.hpp"
+#include "readers/gcode/motion/general_pocket.hpp"
 #include "readers/gcode/motion/motion.hpp"
 #include "readers/gcode/motion/offsets.hpp"
 #include "readers/gcode/motion/rotary.hpp"
@@ -68,6 +69,7 @@ class ProgramReader {
     // Returns false at the end of the program.
     Result<bool> run_next(Block& block) {
         if (auto done = flow_.leave_lines(); !done) return std::unexpected(done.error());
+        if (auto done = mill_pocket_of(state_, flow_, output_); !done) return std::unexpected(done.error());
         state_.line = lexer_.place().number() + 1;
         const auto found = lexer_.next(block);
         if (!found) return std::unexpected(found.error());
@@ -89,6 +91,7 @@ class ProgramReader {
         state_.left_at_mm.reset();
         state_.nurbs = {};
         state_.corner.reset();
+        state_.pocket.reset();
         state_.rotary.arrive();
         return true;
     }
@@ -239,7 +242,10 @@ class ProgramReader {
         }
         const auto consumed = apply_non_modal(command, state_, output_);
         if (!consumed) return std::unexpected(consumed.error());
-        if (!*consumed) {
+        if (command.g(GGroup::pocket)) {
+            if (auto done = begin_pocket(command, state_, flow_, output_); !done)
+                return std::unexpected(done.error());
+        } else if (!*consumed) {
             if (auto done = apply_motion(command, state_, output_); !done) {
                 return std::unexpected(done.error());
             }
@@ -275,6 +281,10 @@ class ProgramReader {
         if (auto done = finish_nurbs(state_, output_); !done) return std::unexpected(done.error());
         if (auto done = check_no_corner_waits(state_, output_, last_line); !done)
             return std::unexpected(done.error());
+        if (state_.pocket) {
+            return output_.refuse(state_.pocket->line, state_.pocket->column,
+                                  "G150 has a contour that M99 does not end", "write M99 behind it");
+        }
         if (auto done = end_compensation(state_, output_); !done) return std::unexpected(done.error());
         if (!has_words_) {
             return output_.refuse(0, 0, "no G-code in this file", "check that it is the right one");

@@ -14,6 +14,7 @@
 #include "base/vec3.hpp"
 #include "motion/curve/bezier_motion.hpp"
 #include "motion/machine/work_frame.hpp"
+#include "readers/control/area_milling.hpp"
 #include "readers/control/machine_run.hpp"
 #include "readers/gcode/frames/program_frame.hpp"
 #include "readers/gcode/motion/contour.hpp"
@@ -165,6 +166,16 @@ struct SavedModes {
     int active_work = 0;
 };
 
+// G150: what its block says, and the contour so far, which begins at `start_mm`.
+struct OpenPocket {
+    int line = 0, column = 0;
+    std::size_t depth = 0;  // of calls before it
+    Vec3 start_mm;
+    motion::Move like;  // feed, tool and line of its moves
+    control::AreaMilling milling;
+    control::Ring contour;
+};
+
 struct State {
     int line = 0;  // of the running block
     double unit_mm = 1;
@@ -210,6 +221,7 @@ struct State {
     bool enters_data = false;  // between G10 L50 or L52 and G11: blocks are values of the control
     std::optional<SavedModes> saved;
     std::optional<WaitingCorner> corner;
+    std::optional<OpenPocket> pocket;  // its contour is being read
     std::optional<Cylinder> cylinder;
 
     // In a tilted plane: in its frame. Else in the frame of the axes of the program: the frame of the stock,
@@ -298,6 +310,8 @@ enum class Note {
     roll_pitch_yaw,
     projection_angles,
     round_pocket,
+    general_pocket,
+    pocket_radius,
     second_tool,
     program_of_machine,
     plane_centre,

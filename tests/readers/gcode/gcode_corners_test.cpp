@@ -44,6 +44,51 @@ TEST(GcodeCorners, are_offset_by_the_cutter_too) {
     EXPECT_LT(distance(arc->arc->centre_mm, {45, 5, 0}), 1e-9);
 }
 
+// Feed length of moves along the sides of a rectangle about the middle, at a height.
+double along_sides_mm(const motion::Program& program, double half_x, double half_y, double z) {
+    double sum = 0;
+    for (const motion::Move& move : program.moves) {
+        const Vec3 a = move.start.tip_mm, b = move.end.tip_mm;
+        if (move.kind != motion::MoveKind::feed || std::abs(a.z - z) > 1e-9 || std::abs(b.z - z) > 1e-9)
+            continue;
+        const bool on_x = std::abs(std::abs(a.x) - half_x) < 1e-9 && std::abs(a.x - b.x) < 1e-9;
+        const bool on_y = std::abs(std::abs(a.y) - half_y) < 1e-9 && std::abs(a.y - b.y) < 1e-9;
+        if (on_x || on_y) sum += distance(a, b);
+    }
+    return sum;
+}
+
+TEST(GcodePocket, follows_the_contour_of_a_subprogram) {
+    GcodeOptions options;
+    options.tools = {{1, 10}};
+    // 40 by 20 mm, entered from the middle to its upper side. K leaves 1 mm, which is cut at the bottom
+    // alone.
+    const std::string contour = "G1 Y10\nX-20\nY-10\nX20\nY10\nX0\nM99\n";
+    const std::string block = "G150 X0 Y0 Z-4 R0 Q2 I3 K1 D1 P100 ";
+    for (const std::string& text : {"T1 M6\n" + block + "G41\nG40\nG0 Z9\nM30\nN100 " + contour,
+                                    "T1 M6\n" + block + "G42\nM30\nO100\n" + contour}) {
+        const motion::Program program = fanuc(text, options);
+        for (const double z : {-2.0, -4.0}) {
+            EXPECT_NEAR(along_sides_mm(program, 14, 4, z), 4 * (14 + 4), 1e-9);
+            EXPECT_NEAR(along_sides_mm(program, 11, 1, z), 4 * (11 + 1), 1e-9);
+        }
+        EXPECT_NEAR(along_sides_mm(program, 15, 5, -4), 4 * (15 + 5), 1e-9);
+        EXPECT_EQ(along_sides_mm(program, 15, 5, -2), 0);
+        for (const motion::Move& move : program.moves) {
+            EXPECT_LE(std::abs(move.end.tip_mm.x), 15 + 1e-9);
+            EXPECT_LE(std::abs(move.end.tip_mm.y), 5 + 1e-9);
+        }
+        EXPECT_TRUE(warns_of(program, 4, "G150: the way of the tool is the control's own"));
+    }
+    // Without G41 and G42 the contour is that of the tool's centre.
+    const motion::Program centre = fanuc("T1 M6\n" + block + "\nM30\nN100 " + contour, options);
+    Vec3 widest;
+    for (const motion::Move& move : centre.moves) {
+        for (int k = 0; k < 3; ++k) widest[k] = std::max(widest[k], std::abs(move.end.tip_mm[k]));
+    }
+    EXPECT_LT(distance(widest, {20, 10, 4}), 1e-5);
+}
+
 RC_GTEST_PROP(GcodeCorners, an_arc_between_lines_touches_both, ()) {
     const double degrees = *rc::gen::inRange(20, 161) * (*rc::gen::arbitrary<bool>() ? 1 : -1);
     const double radius = *rc::gen::inRange(1, 100) / 10.0;

@@ -123,7 +123,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G1 X9 ,X2\n", 3, 8, "a comma without R or C behind it"},
         {ready + "G1 X9 G36\nY9\n", 3, 7, "G36 without the size R"},
         {"T1 T2\n", 1, 4, "T stands twice in the block"},
-        {"G150 P1 X1 Q2\n", 1, 1, "G150 (a pocket that the control mills by itself)"},
+        {"G150 P1 X1 Q2\n", 1, 1, "G150 lacks P, Z, Q, or one of I and J"},
         {"G8\n", 1, 1, "G8 (lathe diameters) is not read yet"},
         {"G96 S100\n", 1, 1, "G96 (constant surface speed) is not read yet"},
         {"G33 Z1 K1\n", 1, 1, "G33 (moves synchronised with the spindle) is not read yet"},

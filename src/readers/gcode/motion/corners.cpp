@@ -17,17 +17,6 @@ constexpr double kStraightRad = 1e-6;
 
 constexpr const char* kRemedy = "let the CAM system write the corner as a move of its own";
 
-Element element_of(const motion::Move& move, Plane plane) {
-    const auto [u, v, w] = axes_of(plane);
-    Element element{
-        {move.start.tip_mm[u], move.start.tip_mm[v]}, {move.end.tip_mm[u], move.end.tip_mm[v]}, {}, 0};
-    if (move.arc) {
-        element.centre = {move.arc->centre_mm[u], move.arc->centre_mm[v]};
-        element.turn_rad = move.arc->turn_rad * (move.arc->normal[w] < 0 ? -1 : 1);
-    }
-    return element;
-}
-
 // The move along another element in the plane, at the same height.
 motion::Move along(const Element& element, const motion::Move& like, Plane plane) {
     const auto [u, v, w] = axes_of(plane);
@@ -60,6 +49,17 @@ bool is_in_plane(const motion::Move& move, Plane plane) {
 }
 
 }  // namespace
+
+Element element_of(const motion::Move& move, Plane plane) {
+    const auto [u, v, w] = axes_of(plane);
+    Element element{
+        {move.start.tip_mm[u], move.start.tip_mm[v]}, {move.end.tip_mm[u], move.end.tip_mm[v]}, {}, 0};
+    if (move.arc) {
+        element.centre = {move.arc->centre_mm[u], move.arc->centre_mm[v]};
+        element.turn_rad = move.arc->turn_rad * (move.arc->normal[w] < 0 ? -1 : 1);
+    }
+    return element;
+}
 
 Result<std::optional<CornerSize>> corner_of(Command& command, const State& state, const Output& output) {
     const Block& block = command.block();

@@ -8,6 +8,9 @@
 
 namespace tribo::readers::gcode {
 
+// The move seen along the axis of the plane.
+Element element_of(const motion::Move& move, Plane plane);
+
 // The corner that the block asks for, in mm; none if it has none.
 Result<std::optional<CornerSize>> corner_of(Command& command, const State& state, const Output& output);
 

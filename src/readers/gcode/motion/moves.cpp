@@ -8,6 +8,7 @@
 #include "readers/gcode/motion/arc.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/corners.hpp"
+#include "readers/gcode/motion/general_pocket.hpp"
 #include "readers/gcode/motion/parallel_axes.hpp"
 #include "readers/gcode/motion/rotary.hpp"
 #include "readers/text/decimal_text.hpp"
@@ -50,6 +51,7 @@ Result<void> append(const motion::Move& move, State& state, Output& output) {
                               : move.end.tip_mm - move.start.tip_mm;
     if (length(way) > 0) state.heading = normalized(way);
     if (state.corner) return join_at_corner(move, state, output);
+    if (state.pocket) return keep_in_pocket(move, state, output);
     if (state.compensation.is_on) return compensate(move, state, output);
     return state.left_at_mm ? leave_compensation(move, state, output) : hand_out(move, state, output);
 }
