@@ -43,9 +43,10 @@ Result<void> Clearance::retract(const Statement& statement, Path& path, Report& 
                              "let the CAM system write it as GOTO with tool axes");
     }
     if (!path.place()) return {};
+    // Without a plane the post retracts to the height of the machine's own.
     if (!plane_) {
-        return report.refuse(statement.word, "RETRCT without a clearance plane",
-                             "write CLEARP/XYPLAN,z before it");
+        path.leave_to_home(statement);
+        return {};
     }
     motion::ToolPose end = *path.place();
     const double rise = dot(end.axis, plane_->normal);

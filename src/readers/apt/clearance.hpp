@@ -13,6 +13,7 @@ class Clearance {
     // CLEARP/z, CLEARP/XYPLAN,z, CLEARP/a,b,c,d (a x + b y + c z = d) or CLEARP/OFF
     Result<void> set(const Statement& statement, const Path& path, Report& report);
     // RETRCT: the rapid move along the tool axis up to the plane; no move if the tool is already beyond it.
+    // Without a plane the tool leaves to where only the machine knows.
     Result<void> retract(const Statement& statement, Path& path, Report& report) const;
 
   private:

@@ -79,6 +79,15 @@ void Path::set_place(const std::optional<motion::ToolPose>& pose) {
     any_points_ = any_points_ || pose.has_value();
 }
 
+void Path::leave_to_home(const Statement& statement) {
+    if (report_.first(Note::home)) {
+        report_.warn(statement.word.line, std::string(statement.word.text) +
+                                              " leads where only the machine knows: the path ends there and "
+                                              "goes on at the next point");
+    }
+    set_place({});
+}
+
 motion::Move Path::new_move(motion::MoveKind kind, const Item& at) const {
     motion::Move move;
     move.kind = kind;

@@ -37,6 +37,8 @@ class Path {
     bool any_points() const { return any_points_; }
     // Sets the position of the tool without a move; absent: the position is unknown.
     void set_place(const std::optional<motion::ToolPose>& pose);
+    // Sets the position unknown after a statement that leads where only the machine knows, and warns once.
+    void leave_to_home(const Statement& statement);
 
     // Moves the tool from its position to `end`, along the arc if there is one. Adds no move if the position
     // is unknown or equal to `end`. `feed` replaces the feed in force.

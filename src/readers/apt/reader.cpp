@@ -269,12 +269,7 @@ class AptReader {
             if (!pose) return std::unexpected(pose.error());
             return path_.go(*pose, motion::MoveKind::rapid, statement.word);
         }
-        if (report_.first(Note::home)) {
-            report_.warn(statement.word.line,
-                         "GOHOME leads where only the machine knows: the path ends there and goes on at the "
-                         "next point");
-        }
-        path_.set_place({});
+        path_.leave_to_home(statement);
         return {};
     }
 
@@ -325,7 +320,8 @@ class AptReader {
         const auto& items = statement.items;
         const bool reversed = items.size() == 2 && matches(items[0].text, "REV");
         const bool in_turns = reversed || (items.size() == 2 && matches(items[1].text, "REV"));
-        if (items.size() != 1 && !in_turns) {
+        const bool in_seconds = items.size() == 1 || (items.size() == 2 && matches(items[1].text, "SEC"));
+        if (!in_seconds && !in_turns) {
             return report_.refuse(statement.word, "DELAY without a single number",
                                   "write DELAY/ and the seconds");
         }

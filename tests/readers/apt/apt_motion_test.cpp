@@ -155,6 +155,12 @@ TEST(AptMotion, IncrementsHomesAndRetractions) {
     expect_near(program.moves[5].end.tip_mm, {0, 0, 99});
     expect_near(program.moves[6].start.tip_mm, {5, 5, 5});
     EXPECT_TRUE(warns_of(program, 14, "only the machine knows"));
+
+    // No plane is known: the path ends, and goes on at the next point.
+    const Program open = apt_in_mm("FROM/0,0,0\nGOTO/1,0,0\nRETRCT\nDELAY/2,SEC\nGOTO/5,5,5\nGOTO/6,5,5\n");
+    ASSERT_EQ(open.moves.size(), 2U);
+    expect_near(open.moves[1].start.tip_mm, {5, 5, 5});
+    EXPECT_TRUE(warns_of(open, 5, "RETRCT leads where only the machine knows"));
 }
 
 TEST(AptMotion, FramesLeadPointsToThatOfTheProgram) {

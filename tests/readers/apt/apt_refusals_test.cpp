@@ -56,7 +56,6 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
         {"UNITS/MM\nGODLTA/1,0,0\n", 2, 1, "GODLTA before any point"},
         {at + "GODLTA/1,0\n", 4, 1, "GODLTA has 2 numbers"},
         {at + "GOHOME/1,0\n", 4, 1, "'GOHOME' has 2 numbers"},
-        {at + "RETRCT\n", 4, 1, "without a clearance plane"},
         {at + "RETRCT/TOOL\n", 4, 8, "RETRCT with conditions"},
         {at + "CLEARP\n", 4, 1, "CLEARP without a plane"},
         {at + "CLEARP/XZ,5\n", 4, 8, "'XZ' is no plane"},
