@@ -12,7 +12,6 @@
 namespace tribo::readers {
 namespace {
 
-constexpr std::size_t kLookedAt = 1 << 16;  // only this many characters from the start are read
 // Variables of Fanuc that stand for VC0 .. or P0 .., for other names, and lines that stand for labels.
 constexpr int kFirstVariable = 500, kFirstName = 100, kFirstLabel = 90'000;
 constexpr int kMostVariables = 300, kMostNames = 100;
@@ -515,64 +514,6 @@ class Translator {
     std::size_t at_ = 0;
     std::map<std::string, int> names_, labels_;
 };
-
-}  // namespace
-
-std::string_view name_of(OtherControl control) {
-    constexpr std::array<std::string_view, 3> names{"Okuma OSP", "Fagor 8055", "NUM"};
-    return names[static_cast<std::size_t>(control)];
-}
-
-std::optional<OtherControl> detect_other_control(std::string_view bytes) {
-    TextLines lines(bytes.substr(0, kLookedAt));
-    for (int number = 1; const auto line = lines.next(); ++number) {
-        std::string text;
-        for (const char c : *line) {
-            if (c == ';') break;
-            if (!is_blank(c)) text += to_upper(c);
-        }
-        std::string_view block = text;
-        const bool is_first = number == 1;
-        if (is_first && block.starts_with('$') && block.ends_with(".MIN%")) return OtherControl::okuma;
-        if (is_first && block.starts_with('%') && block.find(",MX") != std::string_view::npos)
-            return OtherControl::fagor;
-        if (block.starts_with('N')) {
-            block.remove_prefix(std::min(block.find_first_not_of("0123456789", 1), block.size()));
-        }
-        for (const std::string_view begin : {"(P", "(IFP", "(IF(P"}) {
-            if (!block.starts_with(begin)) continue;
-            const std::string_view digits = digits_at(block, begin.size());
-            const std::string_view rest = from(block, begin.size() + digits.size());
-            if (!digits.empty() && (begin != "(P" || rest.starts_with('='))) return OtherControl::fagor;
-        }
-        if (block.starts_with("(RPTN") || block.starts_with("(GOTON")) return OtherControl::fagor;
-        if (block.starts_with("VC") && block.find('=') != std::string_view::npos &&
-            !digits_at(block, 2).empty())
-            return OtherControl::okuma;
-        if (block.starts_with("CALLO") || block.starts_with("NCYL") || block.starts_with("G15H") ||
-            block.starts_with("G56HA"))
-            return OtherControl::okuma;
-        if (is_block_of_num(text.substr(0, text.find('(')))) return OtherControl::num;
-    }
-    return std::nullopt;
-}
-
-namespace {
-
-std::string num_in_fanuc_words(std::string_view bytes) {
-    NumWords num;
-    std::vector<std::string> translated;
-    TextLines lines(bytes);
-    while (const auto line = lines.next()) {
-        std::string text = num.line(*line);
-        if (num.begins_program()) num.end_program(translated);
-        translated.push_back(std::move(text));
-    }
-    num.end_program(translated);
-    std::string all;
-    for (const std::string& line : translated) all += line + '\n';
-    return all;
-}
 
 }  // namespace
 

@@ -385,4 +385,19 @@ void NumWords::end_program(std::vector<std::string>& lines) const {
     }
 }
 
+std::string num_in_fanuc_words(std::string_view bytes) {
+    NumWords num;
+    std::vector<std::string> translated;
+    TextLines lines(bytes);
+    while (const auto line = lines.next()) {
+        std::string text = num.line(*line);
+        if (num.begins_program()) num.end_program(translated);
+        translated.push_back(std::move(text));
+    }
+    num.end_program(translated);
+    std::string all;
+    for (const std::string& line : translated) all += line + '\n';
+    return all;
+}
+
 }  // namespace tribo::readers

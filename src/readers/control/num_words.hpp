@@ -44,4 +44,7 @@ class NumWords {
     bool begins_program_ = false;
 };
 
+// A whole program; has as many lines as it.
+std::string num_in_fanuc_words(std::string_view bytes);
+
 }  // namespace tribo::readers
