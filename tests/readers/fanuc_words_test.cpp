@@ -51,7 +51,40 @@ TEST(FanucWords, of_okuma_set_offsets_and_cycles) {
     EXPECT_TRUE(warns_of(program, 6, "measured right"));
 }
 
+// Okuma 5082-E, Fixture Offset Function: system PP has the zero of PH, gone with the part.
+TEST(FanucWords, of_okuma_let_the_zero_go_with_the_part) {
+    EXPECT_EQ(in_fanuc_words("CALL OO88 PX=0 PY=0. PZ=-0 PC=45 PA=-30 PH=1 PP=51 (A)\nG15 H51\nG15 H1\n",
+                             OtherControl::okuma),
+              "(A)\nG254 G54.1P1 \nG255 G54.1P1 \n");
+    EXPECT_EQ(in_fanuc_words("G605 H2 Q51 R1\nG604\nG15 H1\n", OtherControl::okuma),
+              "G254 G54.1P2   \nG255\nG54.1P1 \n");
+}
+
+TEST(FanucWords, of_okuma_name_programs_and_leave_out_the_machines_own) {
+    // DEPTH is 1 - 4; the tip goes 3 mm down and 8 mm along X.
+    const motion::Program program = read(
+        "OPLATE (MAIN)\nG15 H1\nG21 G90 F100 S500 M3\nG169 HA\nG0 X0 Y0 Z0\nVSLDT[1]=50\n"
+        "VC1 = 4\nG131 F9 J1 E0.01\nCALL OSTEP\nG130\nG1 X8\nG170\nCALL O9810 PX=3 PF=100\n"
+        "CALL OO10 PMOD=2\nM2\nOSTEP\nDEPTH = 1 - VC1\nG1 Z=DEPTH\nRTS\n",
+        OtherControl::okuma);
+    EXPECT_NEAR(feed_mm(program), 3 + 8, 1e-12);
+    EXPECT_DOUBLE_EQ(program.moves.back().feed_mm_per_min, 100);
+    EXPECT_TRUE(warns_of(program, 13, "O9810"));
+    EXPECT_TRUE(warns_of(program, 14, "O9010"));
+}
+
+TEST(FanucWords, of_okuma_tap_with_the_spindle_in_step) {
+    for (const char* code : {"G274", "G284", "G273 Q1 E0", "G283 Q1 E0"}) {
+        const motion::Program program =
+            read(kOkuma + code + " X1 Y1 Z-5 R2 F500\nG80\n", OtherControl::okuma);
+        EXPECT_NEAR(program.moves.back().end.tip_mm.z, 5, 1e-12) << code;
+        EXPECT_GE(feed_mm(program), 2 * 7) << code;
+    }
+}
+
 TEST(FanucWords, of_okuma_that_have_none_are_refused) {
+    EXPECT_NE(fault(kOkuma + "CALL OO88 PX=4 PH=1 PP=2\n", OtherControl::okuma).find("'CALL'"),
+              std::string::npos);
     EXPECT_NE(fault(kOkuma + "CALL OO88 HP=4\n", OtherControl::okuma).find("'CALL'"), std::string::npos);
     EXPECT_NE(fault(kOkuma + "CALL O1001 PX=4\n", OtherControl::okuma).find("CALL"), std::string::npos);
 }

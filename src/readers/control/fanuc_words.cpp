@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "readers/control/block_text.hpp"
 #include "readers/control/num_words.hpp"
 #include "readers/text/text_lines.hpp"
 
@@ -13,40 +14,25 @@ namespace tribo::readers {
 namespace {
 
 // Variables of Fanuc that stand for VC0 .. or P0 .., for other names, and lines that stand for labels.
-constexpr int kFirstVariable = 500, kFirstName = 100, kFirstLabel = 90'000;
+constexpr int kFirstVariable = 500, kFirstName = 100, kFirstLabel = 90'000, kFirstProgram = 7000;
 constexpr int kMostVariables = 300, kMostNames = 100;
-
-std::string upper(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), to_upper);
-    return out;
-}
-
-bool is_name(char c) {
-    return is_letter(c) || is_digit(c) || c == '_';
-}
-
-std::string_view from(std::string_view text, std::size_t at) {
-    return text.substr(std::min(at, text.size()));
-}
-
-std::string_view digits_at(std::string_view text, std::size_t at) {
-    const std::string_view rest = from(text, at);
-    return rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size()));
-}
-
-bool all_digits(std::string_view text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
-}
 
 class Translator {
   public:
     Translator(OtherControl control, std::string_view bytes)
         : is_okuma_(control == OtherControl::okuma),
-          says_centres_(!is_okuma_ && has_absolute_centres(bytes)) {}
+          says_centres_(!is_okuma_ && has_absolute_centres(bytes)) {
+        TextLines lines(bytes);
+        for (auto line = lines.next(); is_okuma_ && line; line = lines.next()) {
+            const std::string name = program_name(upper(trimmed(*line)));
+            if (!name.empty())
+                programs_.try_emplace(name, kFirstProgram + static_cast<int>(programs_.size()));
+        }
+    }
 
     std::string line(std::string_view text) {
         std::string all = upper(text);
+        if (is_okuma_) all = without_blanks_of_formulas(all);
         if (is_okuma_ && trimmed(all).starts_with('$')) return {};
         if (trimmed(all).starts_with('%')) return all;
         in_ = all;
@@ -59,6 +45,10 @@ class Translator {
         if (!is_word && at_ + 1 < in_.size() && in_[at_] == 'N' && is_name(in_[at_ + 1])) {
             ++at_;
             out_ += "N" + label() + " ";
+        }
+        if (const auto known = programs_.find(program_name(in_.substr(at_))); known != programs_.end()) {
+            out_ += "O" + std::to_string(known->second);
+            at_ += known->first.size();
         }
         const std::size_t head = out_.size();
         has_centre_ = has_absolute_centre_ = false;
@@ -233,9 +223,10 @@ class Translator {
         } else if (takes("CALL") || takes("MODIN")) {
             const bool is_modal = in_[at_ - 1] == 'N';
             skip_blanks();
-            const std::string name = name_at(at_);
-            if (name.starts_with('O') && all_digits(from(name, 1))) {
-                at_ += name.size();
+            const std::string name = name_at(at_), program = program_of(name);
+            at_ += name.size();
+            if (name == "OO88" && !is_modal && fixture_offset()) return true;
+            if (!program.empty()) {
                 skip_blanks();
                 std::string times;
                 if (takes("Q")) {
@@ -243,10 +234,12 @@ class Translator {
                     at_ += times.size();
                 }
                 skip_blanks();
-                // Arguments set variables of the called program, which have no place here.
+                // Arguments set variables of the called program, which have no place here. One of the
+                // machine's own is not at hand.
+                if (program.size() == 4 && program >= "8000")
+                    at_ = std::min(in_.find_first_of("(;", at_), in_.size());
                 if (at_ >= in_.size() || in_[at_] == '(' || in_[at_] == ';') {
-                    out_ +=
-                        (is_modal ? "G66P" : "M98P") + name.substr(1) + (times.empty() ? "" : "L" + times);
+                    out_ += (is_modal ? "G66P" : "M98P") + program + (times.empty() ? "" : "L" + times);
                     return true;
                 }
             }
@@ -257,6 +250,9 @@ class Translator {
             out_ += "G67";
             return true;
         } else if (takes("NOEX")) {
+            return true;
+        } else if (takes("VSLNO") || takes("VSLDT")) {  // the monitor of the spindle's load
+            at_ = std::min(in_.find_first_of(" (;", at_), in_.size());
             return true;
         } else if (takes("DA") || takes("DB") || takes("DC")) {
             if (at_ >= in_.size() || !is_name(in_[at_])) return true;  // an offset of the tool in the spindle
@@ -272,6 +268,52 @@ class Translator {
         }
         at_ = start;
         return false;
+    }
+
+    // The number of a program that is called: O100, OCHCK of this file, OO10 of the machine's maker; else
+    // empty.
+    std::string program_of(const std::string& name) const {
+        if (const auto known = programs_.find(name); known != programs_.end())
+            return std::to_string(known->second);
+        const bool is_makers = name.starts_with("OO") && name != "OO88" && name.size() < 6;
+        const std::string number = name.substr(std::min<std::size_t>(is_makers ? 2 : 1, name.size()));
+        if (!name.starts_with('O') || !all_digits(number)) return {};
+        return is_makers ? std::to_string(9000 + std::stoi(number)) : number;
+    }
+
+    // CALL OO88 PC= PA= PH= PP= (Okuma 5082-E, Fixture Offset Function): the system PP has the zero of PH,
+    // where it stands when the part has turned to these angles. The tool goes to them before it cuts, so a
+    // zero that turns with the part is at the same place. A shift of it by PX PY PZ is not read.
+    bool fixture_offset() {
+        std::string base, turned;
+        while (at_ < in_.size() && in_[at_] != '(' && in_[at_] != ';') {
+            if (is_blank(in_[at_])) {
+                ++at_;
+                continue;
+            }
+            const std::string name = name_at(at_);
+            at_ += name.size();
+            if (name.size() != 2 || name[0] != 'P' || !takes("=")) return false;
+            const std::string value = formula(" (;");
+            const bool is_shift = name[1] == 'X' || name[1] == 'Y' || name[1] == 'Z';
+            if (is_shift && value.find_first_not_of("-.0") != std::string::npos) return false;
+            if (name[1] == 'H') base = value;
+            if (name[1] == 'P') turned = value;
+        }
+        if (!all_digits(base) || !all_digits(turned)) return false;
+        turning_zeros_[turned] = base;
+        return true;
+    }
+
+    // G15 H: a work system, whose zero turns with the part after CALL OO88.
+    void work_system() {
+        const std::string zero = take_word('H');
+        const auto turning = turning_zeros_.find(zero);
+        if (turning != turning_zeros_.end()) {
+            out_ += "G254 G54.1P" + turning->second;
+        } else {
+            out_ += (turning_zeros_.empty() ? "G54.1P" : "G255 G54.1P") + zero;
+        }
     }
 
     bool fagor_statement() {
@@ -444,12 +486,24 @@ class Translator {
 
     void okuma_code(const std::string& number) {
         if (number == "15" || number == "16") {
-            out_ += "G54.1P" + take_word('H');
-        } else if (number == "53") {
+            work_system();
+        } else if (number == "605") {  // the zero of system H goes with the part
+            take_word('Q');
+            take_word('R');
+            out_ += "G254 G54.1P" + take_word('H');
+        } else if (number == "604") {
+            out_ += "G255";
+        } else if (number == "53" || number == "170") {
             out_ += "G49";
-        } else if (number == "54" || number == "55" || number == "56") {
+        } else if (number == "54" || number == "55" || number == "56" || number == "169") {
             const std::string offset = take_word('H');
-            out_ += "G43" + (all_digits(offset) ? "H" + offset : std::string());
+            out_ += (number == "169" ? "G43.4" : "G43") + (all_digits(offset) ? "H" + offset : std::string());
+        } else if (number == "130" || number == "131") {  // Super-NURBS: how the control smooths
+            for (const char word : {'F', 'J', 'E', 'D', 'P'}) take_word(word);
+        } else if (number == "274" || number == "284" || number == "273" || number == "283") {
+            take_word('E');  // taps with the spindle in step, which E places; Q: in pecks
+            cycle_on_ = true;
+            out_ += number[1] == '7' ? "G74" : "G84";
         } else if (number == "71") {
             take_word('Z');           // the level to which M53 returns
         } else if (number == "11") {  // a shift and a turn of the coordinates
@@ -512,7 +566,8 @@ class Translator {
     bool cycle_on_ = false, is_turned_ = false;
     std::string in_, out_;
     std::size_t at_ = 0;
-    std::map<std::string, int> names_, labels_;
+    std::map<std::string, int> names_, labels_, programs_;
+    std::map<std::string, std::string> turning_zeros_;  // work systems of CALL OO88, and the base of each
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "readers/control/block_text.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
@@ -14,19 +15,6 @@ namespace {
 // Variables of Fanuc that stand for L0 to L399 and for names in brackets; L900 and on keep their numbers.
 constexpr int kFirstVariable = 500, kMostVariables = 400, kFirstOwn = 900, kLastOwn = 999;
 constexpr int kFirstName = 100, kMostNames = 100;
-
-std::string_view from(std::string_view text, std::size_t at) {
-    return text.substr(std::min(at, text.size()));
-}
-
-std::string_view digits_at(std::string_view text, std::size_t at) {
-    const std::string_view rest = from(text, at);
-    return rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size()));
-}
-
-bool all_digits(std::string_view text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), is_digit);
-}
 
 // A word that is refused by its name.
 std::string refused(std::string_view what) {
