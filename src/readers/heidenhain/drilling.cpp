@@ -119,9 +119,16 @@ Result<void> Interpreter::peck_deep() {
     return return_from(surface, cycle_.at(208) > 0 ? cycle_.at(208) : kRapid);
 }
 
-// 201, 202, 240 and 241: to the depth in one move; the first two return at their own feed.
+// 201, 202, 240 and 241: to the depth in one move; the first two return at their own feed, and 241 turns
+// slower outside of its drilling (Q427, Q428).
 Result<void> Interpreter::bore() {
-    const double surface = cycle_.at(203), plunge = cycle_.at(206);
+    const double surface = cycle_.at(203), plunge = cycle_.at(206), rpm = path_.spindle_rpm;
+    const bool has_speeds = cycle_.number == 241;
+    const double entry_rpm = has_speeds && cycle_.at(427) > 0 ? cycle_.at(427) : rpm;
+    const double drill_rpm = has_speeds && cycle_.at(428) > 0 ? cycle_.at(428) : rpm;
+    for (const double speed : {entry_rpm, drill_rpm}) {
+        if (auto good = path_.in_range(kLimits.spindle_speed, speed, cycle_.place); !good) return good;
+    }
     double depth = -cycle_.at(201);
     if (cycle_.number == 240 && cycle_.at(343) != 0) {
         depth = std::abs(cycle_.at(344)) / 2 / math::tan(kSpotAngleDeg / 2 * math::kRadPerDeg);
@@ -134,14 +141,19 @@ Result<void> Interpreter::bore() {
                    "cycle 202 steps off the wall before it retracts (Q214): that step is left out");
     }
     if (auto done = go_to_height(surface + cycle_.at(200), kRapid); !done) return done;
-    if (cycle_.number == 241 && cycle_.at(379) > 0) {
+    path_.spindle_rpm = entry_rpm;
+    if (has_speeds && cycle_.at(379) > 0) {
         const double to_start = cycle_.at(253) > 0 ? cycle_.at(253) : plunge;
         const double start = std::min(cycle_.at(379), depth);
         if (auto done = go_to_height(surface - start, to_start); !done) return done;
     }
+    path_.spindle_rpm = drill_rpm;
     if (auto done = go_to_height(surface - depth, plunge); !done) return done;
+    path_.spindle_rpm = entry_rpm;
     const double slow = cycle_.at(208) > 0 ? cycle_.at(208) : plunge;
-    return return_from(surface, cycle_.number == 240 ? kRapid : slow);
+    auto done = return_from(surface, cycle_.number == 240 ? kRapid : slow);
+    path_.spindle_rpm = rpm;
+    return done;
 }
 
 // 206, 207 and 209: the thread's pitch and the speed make the feed; down and up again.

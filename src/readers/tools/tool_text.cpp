@@ -131,10 +131,11 @@ class TextReader {
             set_diameter(token(at), Plainness::key);
             return at - i + 1;
         }
-        if (t.text == "D" && has_number && (has_sign || next.is_glued)) {
+        const bool is_d = t.text == "D";
+        if ((is_d || t.text == "DM") && has_number && (has_sign || next.is_glued)) {  // DM=8, DM8
             set_diameter(token(at), has_sign ? Plainness::key : Plainness::name);
-            if (!has_sign) glued_d_ = token(at).value;
-            if (token(i + 1).is_sign('=') && tool_.number) tool_.is_for_compensation = true;
+            if (is_d && !has_sign) glued_d_ = token(at).value;
+            if (is_d && token(i + 1).is_sign('=') && tool_.number) tool_.is_for_compensation = true;
             return at - i + 1;
         }
         if (t.text == "MM" && next.is_count() && next.is_glued) {  // MM10

@@ -183,6 +183,14 @@ TEST(HeidenhainLanguage, PecksDeepAndTapsAndCentres) {
     EXPECT_EQ(heights(lip), (std::vector<double>{2, -10, -50, 2, 5}));
     EXPECT_EQ(lip.moves[1].feed_mm_per_min, 700);
     EXPECT_EQ(lip.moves[3].feed_mm_per_min, 900);
+    // It turns slower on the way in and out.
+    const motion::Program speeds = conversational(after_start(
+        "CYCL DEF 241 SINGLE-LIP D.H.DRLNG Q200=2 Q201=-50 Q206=100 Q211=0 Q203=0 Q204=5 Q379=10 Q253=700 "
+        "Q208=900 Q427=50 Q428=1790\nCYCL CALL\nL X+9 F50\n"));
+    EXPECT_EQ(speeds.moves[1].spindle_rpm, 50);
+    EXPECT_EQ(speeds.moves[2].spindle_rpm, 1790);
+    EXPECT_EQ(speeds.moves[3].spindle_rpm, 50);
+    EXPECT_EQ(speeds.moves[5].spindle_rpm, lip.moves[0].spindle_rpm);
 }
 
 TEST(HeidenhainLanguage, RunsTheCyclesOfOldControls) {

@@ -74,6 +74,9 @@ const Form kForms[] = {
     {"T9 1-1/2 FACE MILL", 9, face, 1.5, 25.4, 0, 0, 0},
     {"T1 1/2 END MILL", 1, flat, 0.5, 25.4, 0, 0, 0},
     {"T4 SCHAFTFRAESER D12 Z4", 4, flat, 12, 0, 0, 0, 4},
+    // hyperMILL, which writes a number of its tool library
+    {"TOOL: T1755863337 | GUH-5640 / DM=8 CR=1 TL=357", kNoNumber, unstated, 8, 0, 1, 0, 0},
+    {"T7 SCHFR_DM20_SN4", 7, unstated, 20, 0, 0, 0, 0},
     {"T5 Kugelfr\xC3\xA4ser \xC3\x98"
      "6,5 mm 2 Schneiden",
      5, ball, 6.5, 1, 0, 0, 2},
