@@ -13,6 +13,7 @@ namespace tribo::readers {
 namespace heidenhain {
 namespace {
 
+constexpr int kLargestTool = 32'767;  // of a tool table (TNC 640, Conversational Programming)
 // Blocks without effect on the path. What SEL and CONTOUR choose is refused where it is called.
 constexpr std::string_view kSilentBlocks[] = {"OPEN",       "CLOSE", "SEL", "CONTOUR",
                                               "MONITORING", "COUNT", "AFC", "SECTION"};
@@ -32,6 +33,7 @@ Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, Mo
       path_(options, sink),
       limit_(path_.options, bytes.size(), path_.moves) {
     path_.program.dialect = "Heidenhain";
+    path_.notes.number_up_to(kLargestTool);
     TextLines text(bytes);
     for (int number = 1; auto line = text.next(); ++number) {
         for (std::size_t end = line->find(kNextBlock); end != line->npos; end = line->find(kNextBlock)) {

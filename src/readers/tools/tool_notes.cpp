@@ -64,6 +64,7 @@ void ToolNotes::read(std::string_view text, int line) {
     if (lines_.contains(line)) return;
     Note note{read_tool_text(text), line};
     ToolText& tool = note.text;
+    if (largest_number_ && tool.number > largest_number_) tool.number.reset();
     if (tool.is_bare_size) {
         if (!std::exchange(expects_size_, false)) return;
         tool.names_tool = true;

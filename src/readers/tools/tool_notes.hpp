@@ -24,6 +24,8 @@ ToolSizes sizes_of(const ToolText& text, double unit_of_program_mm);
 
 class ToolNotes {
   public:
+    // Larger numbers in texts are those of a tool library: they name no tool of the program.
+    void number_up_to(int largest) { largest_number_ = largest; }
     // Reads a comment, a message or the name of a tool; each line once, though a loop may run it again.
     void read(std::string_view text, int line);
     // Reads the name under which a program calls tool `number`.
@@ -61,6 +63,7 @@ class ToolNotes {
     std::map<int, std::size_t> index_;         // of a number in notes_
     std::vector<Conflict> conflicts_;
     std::set<int> lines_;
+    std::optional<int> largest_number_;
     std::optional<Note> pending_;     // about the next tool
     std::optional<int> window_tool_;  // changed and has not cut yet
     bool window_has_note_ = false;

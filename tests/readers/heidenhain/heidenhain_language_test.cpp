@@ -59,6 +59,19 @@ TEST(HeidenhainLanguage, TakesToolsFromTheListInTheHeader) {
     EXPECT_EQ(program.tools[0].corner_mm, 0.5);
 }
 
+// No control counts so far: the number is that of a tool library, and the call has a name.
+TEST(HeidenhainLanguage, TakesNumbersOfToolLibrariesForNone) {
+    for (const char* number : {"T21780198", "T1755863337"}) {
+        const motion::Program program = conversational(
+            "0 BEGIN PGM P MM\n1 ; " + std::string(number) + " | A_10 / DM=8 CR=1\n2 * - TOOL: " + number +
+            " | A_10 / DM=8 CR=1\n3 TOOL CALL \"A0800\" Z S100\n4 L X+0 Y+0 Z+0 FMAX\n5 L X+9 F100\n");
+        ASSERT_EQ(program.tools.size(), 1U);
+        EXPECT_EQ(program.tools[0].number, 1);
+        EXPECT_EQ(program.tools[0].diameter_mm, 8);
+        EXPECT_EQ(program.tools[0].corner_mm, 1);
+    }
+}
+
 TEST(HeidenhainLanguage, KeepsLocalAndRemanentParametersApart) {
     const motion::Program program = conversational(after_start(
         "Q1 = 1\nQL1 = Q1 + 10\nQR1 = QL1 + 100\nL X+QL1 Y+QR1 Z + Q1 FQL1\nQS2 = \"UP\"\nCALL LBL QS2\n"
