@@ -90,6 +90,16 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
       await page.focus("#program-lines");
       for (const key of ["ArrowDown", "ArrowDown", "ArrowDown", "ArrowUp", "Enter"]) await page.keyboard.press(key);
       await page.waitForSelector('#program-line-6[aria-selected="true"]', { timeout: PATIENCE_MS });
+      // Also where the lines are drawn while the button is down, as while the clock runs.
+      const box = (await page.locator("#program-line-4").boundingBox())!;
+      await page.mouse.move(box.x + 40, box.y + box.height / 2);
+      await page.mouse.down();
+      await page.evaluate(async () => {
+        document.getElementById("program-lines")!.dispatchEvent(new Event("scroll"));
+        for (let n = 0; n < 2; ++n) await new Promise((done) => requestAnimationFrame(done));
+      });
+      await page.mouse.up();
+      await page.waitForSelector('#program-line-4[aria-selected="true"]', { timeout: PATIENCE_MS });
     },
     PATIENCE_MS,
   );

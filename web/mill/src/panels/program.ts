@@ -54,6 +54,8 @@ export class Program {
   private readonly list = element("program-lines");
   private readonly drawn = element("program-drawn");
   private readonly loads = new LineLoads();
+  // Of the lines in the window.
+  private readonly items = new Map<number, HTMLElement>();
   private lines: string[] = [];
   private times = new Map<number, number>();
   private now = 0;
@@ -86,10 +88,16 @@ export class Program {
     this.times.clear();
     this.loads.clear();
     this.now = this.chosen = this.glowing = 0;
+    this.forgetLines();
     this.box.hidden = true;
+  }
+  private forgetLines(): void {
+    this.items.clear();
+    this.drawn.replaceChildren();
   }
   take({ name, text }: ProgramFrame): void {
     this.box.hidden = false;
+    this.forgetLines();
     this.lines = text.replace(/\r?\n$/, "").split(/\r\n|\n|\r/);
     element("program-name").textContent = name.replace(/^.*\//, "");
     element("program-note").hidden = text !== "";
@@ -154,40 +162,60 @@ export class Program {
     const from = Math.max(Math.floor(scrollTop / LINE_PX) - AROUND, 0);
     const to = Math.min(Math.ceil((scrollTop + clientHeight) / LINE_PX) + AROUND, this.lines.length);
     this.drawn.style.height = `${this.lines.length * LINE_PX}px`;
+    for (const [line, item] of this.items) {
+      if (line > from && line <= to) continue;
+      item.remove();
+      this.items.delete(line);
+    }
+    // A line stays the same element: a browser forgets the click on one that is replaced while the button is down.
+    let below: HTMLElement | null = null;
+    for (let line = to; line > from; --line) {
+      let item = this.items.get(line);
+      if (!item) {
+        item = this.item(line);
+        this.items.set(line, item);
+        this.drawn.insertBefore(item, below);
+      }
+      below = item;
+      item.classList.toggle("chosen", line === this.chosen);
+      item.classList.toggle("glows", line === this.glowing);
+      item.ariaSelected = String(line === this.now);
+      this.showLoad(item, line);
+    }
     const marked = this.chosen || this.now;
-    this.drawn.replaceChildren(
-      ...this.lines.slice(from, to).map((text, n) => {
-        const line = from + n + 1;
-        const item = document.createElement("div");
-        item.role = "option";
-        item.id = `program-line-${line}`;
-        item.dataset.line = String(line);
-        item.style.top = `${(line - 1) * LINE_PX}px`;
-        item.classList.toggle("chosen", line === this.chosen);
-        item.classList.toggle("glows", line === this.glowing);
-        item.ariaSelected = String(line === this.now);
-        item.ariaPosInSet = String(line);
-        item.ariaSetSize = String(this.lines.length);
-        const share = this.loads.of(line);
-        item.append(cell("b", String(line)), cell("span", text || " "));
-        if (share > 0) {
-          const bar = cell("i", "");
-          bar.style.width = `${Math.max(100 * share, 3)}%`;
-          bar.style.background = css(heat(share));
-          const track = cell("u", "");
-          track.title = t("peak force {force} N", { force: fixed(this.loads.force(line), 0) });
-          track.append(bar);
-          item.append(track);
-        }
-        return item;
-      }),
-    );
     if (marked > from && marked <= to) this.list.setAttribute("aria-activedescendant", `program-line-${marked}`);
     else this.list.removeAttribute("aria-activedescendant");
   }
+
+  private item(line: number): HTMLElement {
+    const item = document.createElement("div");
+    item.role = "option";
+    item.id = `program-line-${line}`;
+    item.dataset.line = String(line);
+    item.style.top = `${(line - 1) * LINE_PX}px`;
+    item.ariaPosInSet = String(line);
+    item.ariaSetSize = String(this.lines.length);
+    item.append(cell("b", String(line)), cell("span", this.lines[line - 1] || " "));
+    return item;
+  }
+
+  private showLoad(item: HTMLElement, line: number): void {
+    const share = this.loads.of(line);
+    let track = item.querySelector("u");
+    if (!(share > 0)) return track?.remove();
+    if (!track) {
+      track = cell("u", "");
+      track.append(cell("i", ""));
+      item.append(track);
+    }
+    track.title = t("peak force {force} N", { force: fixed(this.loads.force(line), 0) });
+    const bar = track.querySelector("i")!;
+    bar.style.width = `${Math.max(100 * share, 3)}%`;
+    bar.style.background = css(heat(share));
+  }
 }
 
-function cell(tag: string, text: string): HTMLElement {
+function cell(tag: "b" | "i" | "span" | "u", text: string): HTMLElement {
   const made = document.createElement(tag);
   made.textContent = text;
   return made;
