@@ -436,7 +436,7 @@ struct Limits {
     Limit optical_share{"optical share",
                         "",
                         {0, 1},
-                        "`relief_slope`, `gloss`; `--relief-slope`, `--gloss`",
+                        "`relief_slope`, `gloss`, `pile`; `--relief-slope`, `--gloss`, `--pile`",
                         "A share, or a slope of 45 degrees."};
     Limit roughness{"optical roughness",
                     "",

@@ -35,7 +35,9 @@ struct Between {
 
 class Painter {
   public:
-    Painter(const Sheet& sheet, const PictureView& view) : sheet_(sheet), view_(view) {
+    // `full_mm`: see Finish; 0: depths are drawn as published.
+    Painter(const Sheet& sheet, const PictureView& view, float full_mm)
+        : sheet_(sheet), view_(view), full_mm_(full_mm) {
         const SheetSize& size = sheet.size();
         const auto longer = static_cast<float>(std::max(size.width, size.height));
         spacing_mm_ = static_cast<float>(size.spacing_mm);
@@ -54,7 +56,9 @@ class Painter {
         const Between at(x, y, sheet_.size().width, sheet_.size().height);
         const float *upper = sheet_.heights(at.y0), *lower = sheet_.heights(at.y1);
         const float e = at.mix(upper[at.x0], upper[at.x1], lower[at.x0], lower[at.x1]);
-        return view_.relief * e / (1 + std::abs(e) / view_.half_mm);
+        if (!(full_mm_ > 0)) return relieved(e);
+        const float part = e * e / (full_mm_ * full_mm_);
+        return 0.5F * (relieved(e) - relieved(full_mm_) * (1 + kEdge) * part / (part + kEdge));
     }
 
     // Returns the node that the eye sees through node (x, y) of the flat image.
@@ -68,11 +72,21 @@ class Painter {
         return {sx, sy};
     }
 
+    // The place of node (x, y) in another grid over the same image.
+    Between over_all(float x, float y, int width, int height) const {
+        const auto scaled = [](float node, int nodes, int others) {
+            return (node + 0.5F) * static_cast<float>(others) / static_cast<float>(nodes) - 0.5F;
+        };
+        return {scaled(x, sheet_.size().width, width), scaled(y, sheet_.size().height, height), width,
+                height};
+    }
+    float per_mm() const { return 1 / spacing_mm_; }
+
     // The light that reaches one point of the sheet.
     struct Light {
         float height_mm = 0, slope_x = 0, slope_y = 0;  // as drawn; slopes as in SmallRelief
-        float walls = 0;                                // slope of the walls around, 0 or more
-        float sun = 0;                                  // visible share of the disc, 0..1
+        float walls = 0;  // slope of the walls around; below 0 on a rim, which stands above them
+        float sun = 0;    // visible share of the disc, 0..1
     };
     Light light(float x, float y) const {
         Light light;
@@ -92,12 +106,11 @@ class Painter {
         const float d = sky_reach_, walls = (height_mm(x - d, y) + height_mm(x + d, y) + height_mm(x, y - d) +
                                              height_mm(x, y + d)) /
                                             4;
-        light.walls = std::max(walls - here, 0.0F) / (d * spacing_mm_);
+        light.walls = (walls - here) / (d * spacing_mm_);
         return light;
     }
 
-    // Light of the sky between walls, and light of the sun on a slope (1 where it is flat).
-    float sky(float walls) const { return view_.ambient / (1 + walls * walls); }
+    // Light of the sun on a slope (1 where it is flat).
     float diffuse(float nx, float ny) const {
         const float towards =
             (nx * view_.light_x + ny * view_.light_y + view_.light_z) / std::sqrt(nx * nx + ny * ny + 1);
@@ -107,12 +120,19 @@ class Painter {
     // Returns the linear brightness of the smooth sheet at this point; 1 where it is flat.
     float brightness(float x, float y) const {
         const Light l = light(x, y);
-        return sky(l.walls) + (1 - view_.ambient) * diffuse(l.slope_x, l.slope_y) * l.sun;
+        return view_.ambient / (1 + l.walls * std::max(l.walls, 0.0F)) +
+               (1 - view_.ambient) * diffuse(l.slope_x, l.slope_y) * l.sun;
     }
 
   private:
+    // Where the dent has its wall: the square of the depth there over that of a full press.
+    static constexpr float kEdge = 0.1F;
+
+    float relieved(float e) const { return view_.relief * e / (1 + std::abs(e) / view_.half_mm); }
+
     const Sheet& sheet_;
     const PictureView& view_;
+    float full_mm_;
     float spacing_mm_, eye_x_, eye_y_, per_eye_height_, to_light_x_, to_light_y_, shadow_reach_, sky_reach_;
 };
 
@@ -188,9 +208,28 @@ class Finisher {
         peak_ = finish.gloss * (power_ + 2) / 8;
     }
 
-    Shade shade(float x, float y) const {
+    // Slope of the hairs at this point of the sheet.
+    std::array<float, 2> lean(float x, float y) const {
+        if (finish_.hairs == nullptr) return {0, 0};
+        const Pile& hairs = *finish_.hairs;
+        const Between at = painter_.over_all(x, y, hairs.width(), hairs.height());
+        const auto node = [&](int i, int j) {
+            return hairs.leans().data() + 2 * (std::ptrdiff_t{j} * hairs.width() + i);
+        };
+        const float *a = node(at.x0, at.y0), *b = node(at.x1, at.y0), *c = node(at.x0, at.y1),
+                    *d = node(at.x1, at.y1);
+        return {finish_.pile * at.mix(a[0], b[0], c[0], d[0]), finish_.pile * at.mix(a[1], b[1], c[1], d[1])};
+    }
+    // Returns the node of the image that is seen at this point of the sheet: tips lean away from it.
+    std::array<float, 2> tip(float x, float y, const std::array<float, 2>& lean) const {
+        return {x - lean[0] * finish_.hair_mm * painter_.per_mm(),
+                y - lean[1] * finish_.hair_mm * painter_.per_mm()};
+    }
+
+    // `tip`: of the hairs that lean at (x, y).
+    Shade shade(float x, float y, const std::array<float, 2>& lean, const std::array<float, 2>& tip) const {
         const Painter::Light light = painter_.light(x, y);
-        const auto [rx, ry] = small_slope(x, y);
+        const auto [rx, ry] = small_slope(tip[0], tip[1]);
         const float kept = 1 / (1 + std::max(-light.height_mm, 0.0F) / finish_.flatten_mm);
         const float ex = finish_.steeper * light.slope_x, ey = finish_.steeper * light.slope_y;
         const float bend = 1 / std::sqrt(1 + (ex * ex + ey * ey) / (finish_.steepest * finish_.steepest));
@@ -200,7 +239,10 @@ class Finisher {
         // The mirrored light beyond the mirrored light at rest, without an edge where it begins.
         const float mirrored = sun * lobe(nx, ny);
         const float more = std::max(mirrored - sun_at_rest * lobe(rx, ry), 0.0F);
-        return {(painter_.sky(finish_.steeper * light.walls) + sun) / (view_.ambient + sun_at_rest),
+        // Walls hide the light of what is between them; a rim sees more than a flat place does.
+        const float walls = 1 - light.walls / std::sqrt(1 + 4 * light.walls * light.walls);
+        const float side = lean[0] * view_.light_x + lean[1] * view_.light_y;
+        return {(view_.ambient + sun) * walls * (1 - side) / ((1 + side) * (view_.ambient + sun_at_rest)),
                 more > 0 ? more * more / mirrored : 0};
     }
 
@@ -251,13 +293,14 @@ void draw_rows(const Sheet& sheet, std::span<const std::uint8_t> image, std::spa
     assert(out.size() == image.size() && first >= 0 && first + rows <= height);
     assert(finish == nullptr || finish->relief == nullptr ||
            (finish->relief->width == width && finish->relief->height == height));
-    const Painter painter(sheet, view);
+    const Painter painter(sheet, view, finish != nullptr ? finish->full_mm : 0);
     const Finisher finisher(painter, view, finish != nullptr ? *finish : Finish{});
     const auto texel = [&](int x, int y) { return image.data() + 4 * (std::ptrdiff_t{y} * width + x); };
     for (int y = first; y < first + rows; ++y) {
         for (int x = 0; x < width; ++x) {
             const auto [sx, sy] = painter.seen(static_cast<float>(x), static_cast<float>(y));
-            const Between at(sx, sy, width, height);
+            const std::array<float, 2> lean = finisher.lean(sx, sy), tip = finisher.tip(sx, sy, lean);
+            const Between at(tip[0], tip[1], width, height);
             const std::uint8_t *a = texel(at.x0, at.y0), *b = texel(at.x1, at.y0), *c = texel(at.x0, at.y1),
                                *d = texel(at.x1, at.y1);
             std::array<float, 4> colour;
@@ -271,7 +314,8 @@ void draw_rows(const Sheet& sheet, std::span<const std::uint8_t> image, std::spa
                     float& value = colour[static_cast<std::size_t>(channel)];
                     value = std::min(value * factor, 255.0F);
                 }
-            } else if (const Shade shade = finisher.shade(sx, sy); shade.factor != 1 || shade.mirrored != 0) {
+            } else if (const Shade shade = finisher.shade(sx, sy, lean, tip);
+                       shade.factor != 1 || shade.mirrored != 0) {
                 for (int channel = 0; channel < 3; ++channel) {
                     float& value = colour[static_cast<std::size_t>(channel)];
                     value = finisher.shaded(value, shade);

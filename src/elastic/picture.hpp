@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <span>
 
+#include "elastic/pile.hpp"
 #include "elastic/sheet.hpp"
 #include "elastic/small_relief.hpp"
 
@@ -46,6 +47,13 @@ struct Finish {
     // Spread of the mirrored light, 0.05 (polished) .. 1 (matt). The power of the lobe is 2 / roughness^2 -
     // 2.
     float roughness = 0.5F;
+    // Depth of a full press of a finger, 2 N. A share p of it is drawn as the mean of what PictureView says
+    // and of 1.1 p^2 / (p^2 + 0.1) of the full press, so that a dent has a floor, steep walls and a rim.
+    float full_mm = 0.5F;
+    // Hairs that lean, and their slope where they lean most; null: there are none. Their tips, hair_mm above
+    // the ground when they stand, are what the image shows; light falls on their sides.
+    const Pile* hairs = nullptr;
+    float pile = 0, hair_mm = 2;
     // For the light, the slopes of the sheet are `steeper` times as steep as drawn, and bent towards
     // `steepest`, at which the darkest wall is still lit.
     float steeper = 2, steepest = 0.8F;

@@ -37,6 +37,7 @@ struct Material {
     double relief_slope = 0.2;  // RMS slope of the small relief, 0..1
     double gloss = 0.04;        // share of the light that is reflected like in a mirror, 0..1
     double roughness = 0.5;     // spread of this reflection, 0.05 (polished) .. 1 (matt)
+    double pile = 0;            // slope of the hairs that a finger has brushed over, 0..1; 0: there are none
 
     // How the voices were learned.
     std::string method;      // "yule-walker" or "burg"; empty without voices

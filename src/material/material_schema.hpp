@@ -181,6 +181,7 @@ void describe(Visitor& f, Material& m) {
     f.number("relief_slope", m.relief_slope, kOptical, Absent{usual.relief_slope, true});
     f.number("gloss", m.gloss, kOptical, Absent{usual.gloss, true});
     f.number("roughness", m.roughness, kRoughness, Absent{usual.roughness, true});
+    f.number("pile", m.pile, kOptical, Absent{usual.pile, true});
     f.text("method", m.method);
     f.number("highpass_hz", m.highpass_hz, kHighpass, Absent{usual.highpass_hz, true});
     describe(f, m.voices, &m.sources);

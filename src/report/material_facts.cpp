@@ -97,6 +97,8 @@ Facts describe(const material::Material& m) {
     facts.lines.emplace_back("finish", text_of("gloss %.3g", m.gloss) +
                                            text_of(", roughness %.3g", m.roughness) +
                                            text_of(", relief of slope %.3g", m.relief_slope));
+    json["pile"] = m.pile;
+    if (m.pile > 0) facts.lines.emplace_back("pile", text_of("leans by a slope of %.3g", m.pile));
     json["voices"] = files::Json::array();
     for (const noise::VoiceModel& v : m.voices.models) {
         json["voices"].push_back(voice_facts(v));

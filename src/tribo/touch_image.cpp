@@ -26,7 +26,11 @@ elastic::SheetMaterial TouchImage::sheet_material() const {
 }
 
 elastic::Finish TouchImage::finish() const {
-    return {&relief, static_cast<float>(material.gloss), static_cast<float>(material.roughness)};
+    return {.relief = &relief,
+            .gloss = static_cast<float>(material.gloss),
+            .roughness = static_cast<float>(material.roughness),
+            .full_mm = static_cast<float>(kFullForceN / material.stiffness_n_per_mm),
+            .pile = static_cast<float>(material.pile)};
 }
 
 FileResult<TouchImage> read_touch_image(const std::string& material_file, int size_px) {

@@ -24,6 +24,9 @@ struct TouchImage {
     elastic::Finish finish() const;  // borrows the relief
 };
 
+// The force of a full press, as on a page.
+inline constexpr double kFullForceN = 2;
+
 // If the image or width_mm is missing, uses a plain image or kAssumedWidthMm, with a warning.
 inline constexpr double kAssumedWidthMm = 100;
 FileResult<TouchImage> read_touch_image(const std::string& material_file, int size_px);

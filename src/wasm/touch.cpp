@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include "elastic/pile.hpp"
 #include "elastic/sheet.hpp"
 #include "elastic/small_relief.hpp"
 #include "material/material_schema.hpp"
@@ -26,6 +28,7 @@ struct TouchSheet {
     std::array<ContactEllipse, kMostContacts>
         contacts{};  // seven doubles each, in the order of ContactEllipse
     std::array<std::int32_t, 4> changes{};
+    std::optional<tribo::elastic::Pile> pile{};
 };
 
 double within(double value, tribo::Range range) {
@@ -79,15 +82,25 @@ void sheet_press(TouchSheet* s, std::uint32_t count, std::uint32_t point, std::u
     s->sheet.press({s->contacts.data(), std::min(count, kMostContacts)}, options);
 }
 
+// Brushes the pile with contact `n`, which has moved by (dx, dy) to its place.
+TRIBO_EXPORT(sheet_brush) void sheet_brush(TouchSheet* s, std::uint32_t n, double dx_mm, double dy_mm) {
+    if (!s->pile) s->pile.emplace(s->sheet.size());
+    s->pile->brush(s->contacts[std::min(n, kMostContacts - 1)], dx_mm, dy_mm);
+}
+
+// Returns x and y of the lean at each node of the pile; null before the first brush.
+TRIBO_EXPORT(sheet_leans) const float* sheet_leans(const TouchSheet* s) {
+    return s->pile ? s->pile->leans().data() : nullptr;
+}
+
 // Returns 1 while anything moves.
 TRIBO_EXPORT(sheet_step)
 std::uint32_t sheet_step(TouchSheet* s, double duration_s, std::uint32_t as_published) {
     using tribo::elastic::TimeScheme;
-    return s->sheet.step(duration_s, as_published != 0 ? TimeScheme::implicit_euler : TimeScheme::exact);
-}
-
-TRIBO_EXPORT(sheet_reset) void sheet_reset(TouchSheet* s) {
-    s->sheet.reset();
+    const bool moves =
+        s->sheet.step(duration_s, as_published != 0 ? TimeScheme::implicit_euler : TimeScheme::exact);
+    const bool rises = s->pile && s->pile->rise(duration_s);
+    return moves || rises;
 }
 
 // Returns x, y, width, height of the region that changed since the last call; width 0: no change.
@@ -103,12 +116,6 @@ TRIBO_EXPORT(sheet_heights) const float* sheet_heights(const TouchSheet* s) {
 }
 TRIBO_EXPORT(sheet_stride) std::int32_t sheet_stride(const TouchSheet* s) {
     return static_cast<std::int32_t>(s->sheet.stride());
-}
-
-// Returns x or y of the updated unit normals, in the layout of the heights.
-TRIBO_EXPORT(sheet_normals) const float* sheet_normals(TouchSheet* s, std::uint32_t axis) {
-    s->sheet.update_normals();
-    return axis == 0 ? s->sheet.normals_x(0) : s->sheet.normals_y(0);
 }
 
 // Computes the small relief of width x height pixels of four bytes, in place. The first two bytes of each

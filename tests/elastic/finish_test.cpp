@@ -168,11 +168,16 @@ TEST(Finish, at_rest_is_the_image_byte_by_byte_whatever_the_material) {
 // 0.5 N on K = 7 and 1.4 N/mm, the paper and the sponge of the touch paper.
 TEST(Finish, half_a_newton_is_seen_on_two_percent_of_paper_and_ten_of_sponge) {
     const Pixels image = paper();
-    EXPECT_GE(share_seen(image, drawn(pressed(7, 0.5), image)), 0.02);
-    EXPECT_GE(share_seen(image, drawn(pressed(1.4, 0.5), image)), 0.10);
-    // By light alone, too.
-    EXPECT_GE(share_seen(image, drawn(pressed(7, 0.5), image, {}, from_above())), 0.02);
-    EXPECT_GE(share_seen(image, drawn(pressed(1.4, 0.5), image, {}, from_above())), 0.10);
+    // From below, and by light alone.
+    for (const PictureView& view : {PictureView{}, from_above()}) {
+        const auto seen = [&](double stiffness) {
+            Finish finish;
+            finish.full_mm = static_cast<float>(2 / stiffness);
+            return share_seen(image, drawn(pressed(stiffness, 0.5), image, finish, view));
+        };
+        EXPECT_GE(seen(7), 0.02);
+        EXPECT_GE(seen(1.4), 0.10);
+    }
 }
 
 TEST(Finish, shows_the_rim_of_a_dent_in_a_plain_grey_image) {
@@ -295,6 +300,27 @@ TEST(Finish, of_the_glossiest_and_of_the_roughest_material_keeps_numbers_in_rang
     }
 }
 
+// Hairs that lean to the light hide it from what is seen, those that lean away show their lit sides.
+TEST(Finish, shows_which_way_hairs_were_brushed) {
+    const Pixels image = plain(128);
+    const Sheet sheet({kSide, kSide, kWidthMm / kSide});
+    const PictureView view;
+    const auto middle = [&](double towards) {
+        Pile pile(sheet.size());
+        ContactEllipse c;
+        c.x_mm = c.y_mm = kWidthMm / 2;
+        c.force_n = 1;
+        pile.brush(c, towards * 40 * view.light_x, towards * 40 * view.light_y);
+        Finish finish;
+        finish.hairs = &pile;
+        finish.pile = 0.6F;
+        return grey_at(drawn(sheet, image, finish, view), kSide / 2, kSide / 2);
+    };
+    EXPECT_LT(middle(1), 128 - 20);
+    EXPECT_GT(middle(-1), 128 + 20);
+    EXPECT_EQ(middle(0), 128);
+}
+
 // What the page's shader is held to as well (web/touch/test/picture.test.ts): the same picture, in
 // pressed.ppm. A change of the look changes it: TRIBO_WRITE_PRESSED=1 writes it anew; look at it.
 TEST(Finish, draws_the_picture_that_the_page_is_held_to) {
@@ -318,7 +344,12 @@ TEST(Finish, draws_the_picture_that_the_page_is_held_to) {
     c.force_n = 1;
     sheet.press({&c, 1});
     sheet.step(1);
-    const Pixels out = drawn(sheet, image, {nullptr, 0.1F, 0.3F});
+    Pile pile(sheet.size());
+    c.x_mm = 24;
+    pile.brush(c, 6, -4);
+    pile.rise(1);
+    const Pixels out =
+        drawn(sheet, image, {.gloss = 0.1F, .roughness = 0.3F, .full_mm = 1, .hairs = &pile, .pile = 0.5F});
     std::string text = "P6\n64 64\n255\n";
     for (std::size_t i = 0; i < out.size(); ++i) {
         if (i % 4 != 3) text += static_cast<char>(out[i]);

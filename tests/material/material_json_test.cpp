@@ -23,6 +23,7 @@ Material sponge() {
     m.relief_slope = 0.35;
     m.gloss = 0.02;
     m.roughness = 0.9;
+    m.pile = 0.4;
     m.method = "burg";
     m.highpass_hz = 50;
     m.voices.models = {{30, 0.5, -41.25, {44100, {-0.9, 0.3, 1.0 / 3}}},

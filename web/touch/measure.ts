@@ -151,7 +151,7 @@ const firstSample = () =>
     });
   });
 
-/** A frame of a whole 512 x 512 sheet in touch.wasm, ms: pressure, and step with normals. */
+/** A frame of a whole 512 x 512 sheet in touch.wasm, ms: pressure, and step. */
 async function engineWork(): Promise<{ press: number; step: number }> {
   const x = await instantiate<TouchExports>(await WebAssembly.compile(readFileSync(join(SITE, "touch.wasm"))));
   const sheet = x.sheet_create(512, 512, 1);
@@ -164,7 +164,6 @@ async function engineWork(): Promise<{ press: number; step: number }> {
     x.sheet_press(sheet, 1, 0, 0);
     const pressed = performance.now();
     x.sheet_step(sheet, 1 / 60, 0);
-    x.sheet_normals(sheet, 0);
     if (n < 200) continue;
     press.push(pressed - begin);
     step.push(performance.now() - pressed);
@@ -181,7 +180,7 @@ const throttled = await several(() => firstFrame(true));
 const engine = await engineWork();
 console.log(
   JSON.stringify({
-    wasm_step_and_normals_ms: Number(engine.step.toFixed(3)),
+    wasm_step_ms: Number(engine.step.toFixed(3)),
     wasm_pressure_ms: Number(engine.press.toFixed(3)),
     first_frame_ms: Math.round(median(throttled)),
     first_frame_least_ms: Math.round(Math.min(...throttled)),

@@ -132,12 +132,15 @@ int press(const PressCall& call) {
     sheet.set_material(inputs->touch.sheet_material());
     const auto scheme = call.as_published ? elastic::TimeScheme::implicit_euler : elastic::TimeScheme::exact;
     const ParallelFor parallel = parallel_for_over(call.threads > 0 ? call.threads : available_threads());
-    const elastic::Finish finish = inputs->touch.finish();
+    elastic::Pile pile(inputs->touch.sheet_size());
+    elastic::Finish finish = inputs->touch.finish();
+    finish.hairs = &pile;
     const files::Image& image = inputs->touch.image;
     files::Image picture = image;
     Finger finger(stroke);
     Progress progress;
     Deepest deepest;
+    readers::FingerPoint before;
     int touched_since = -1;  // the first frame of the contact; -1: none
     for (int frame = 0; frame < frames; ++frame) {
         const readers::FingerPoint at = finger.at(begin_s + frame / call.fps);
@@ -152,6 +155,10 @@ int press(const PressCall& call) {
         contact.half_width_mm = contact.half_height_mm = call.radius_mm;
         contact.force_n = std::min(at.force_n, elastic::kMostForceN);
         if (touched_since >= 0) contact.held_s = (frame - touched_since) / call.fps;
+        if (touched_since >= 0 && frame > touched_since)
+            pile.brush(contact, at.x_mm - before.x_mm, at.y_mm - before.y_mm);
+        before = at;
+        pile.rise(1 / call.fps);
         sheet.press({&contact, 1}, {call.contact, call.as_published});
         sheet.step(1 / call.fps, scheme);
         note_depth(sheet, frame, deepest);

@@ -213,6 +213,10 @@ void add_learn(CLI::App& program, int& exit_code) {
     verb->add_option("--roughness", call->known.roughness, "0.05 polished to 1 matt: 0.5 if absent")
         ->check(within(kLimits.roughness))
         ->type_name("R");
+    verb->add_option("--pile", call->known.pile,
+                     "Slope of its hairs where a finger has brushed over them: 0 if absent, no hairs")
+        ->check(within(kLimits.optical_share))
+        ->type_name("P");
     verb->add_option("--width-mm", call->known.width_mm, "Width of the image as the finger feels it")
         ->check(within(kLimits.material_width))
         ->type_name("W");

@@ -14,7 +14,7 @@ Door material(const Limit& limit, const std::string& key) {
     return {&limit, "material: " + key, [=](double value) {
                 std::string text = R"({"schema": "tribo.material/1")";
                 for (const char* k : {"stiffness_n_per_mm", "viscosity_n_s_per_mm", "width_mm",
-                                      "relief_slope", "gloss", "roughness", "highpass_hz"})
+                                      "relief_slope", "gloss", "roughness", "pile", "highpass_hz"})
                     text += std::string(", \"") + k + "\": " + (key == k ? written(value) : "1");
                 const auto read = material::parse_material(text + "}", "m.json");
                 return read ? std::string() : read.error().text();
@@ -71,6 +71,7 @@ Doors material_doors() {
         material(l.material_width, "width_mm"),
         material(l.optical_share, "relief_slope"),
         material(l.optical_share, "gloss"),
+        material(l.optical_share, "pile"),
         material(l.roughness, "roughness"),
         material(l.noted_highpass, "highpass_hz"),
         voice(l.finger_speed, "speed_mm_per_s"),
@@ -180,6 +181,7 @@ Doors flag_doors() {
         with(l.arm_delay, live, "--delay"),
         with(l.optical_share, learn, "--relief-slope"),
         with(l.optical_share, learn, "--gloss"),
+        with(l.optical_share, learn, "--pile"),
         with(l.roughness, learn, "--roughness"),
         with(l.material_width, learn, "--width-mm"),
         with(l.sheet_stiffness, learn, "--stiffness"),

@@ -159,14 +159,15 @@ TEST_F(Learn, takes_down_how_the_image_takes_the_light_and_no_more_than_was_said
         EXPECT_EQ(run.code, 0) << run.err;
         return nlohmann::json::parse(scratch.get("m.json"));
     };
-    const auto m =
-        learned({"--height-map", "map.png", "--relief-slope", "0", "--gloss", "0.5", "--roughness", "0.1"});
+    const auto m = learned({"--height-map", "map.png", "--relief-slope", "0", "--gloss", "0.5", "--roughness",
+                            "0.1", "--pile", "0.4"});
     EXPECT_EQ(m["height_map"], "map.png");
     EXPECT_EQ(m["relief_slope"], 0);
     EXPECT_EQ(m["gloss"], 0.5);
+    EXPECT_EQ(m["pile"], 0.4);
     EXPECT_EQ(m["roughness"], 0.1);
     const auto usual = learned({});
-    for (const char* key : {"height_map", "relief_slope", "gloss", "roughness"})
+    for (const char* key : {"height_map", "relief_slope", "gloss", "roughness", "pile"})
         EXPECT_FALSE(usual.contains(key)) << key;
 }
 

@@ -165,8 +165,8 @@ TEST(Press, as_published_draws_the_same_frames_whatever_the_finish) {
     Hash hash;
     hash.add(std::string_view(plain));
     EXPECT_EQ(hash.value(), 5421012510701842409U);
-    EXPECT_TRUE(last_frame(R"(, "gloss": 1, "roughness": 0.1, "relief_slope": 1)", {"--as-published"}) ==
-                plain);
+    EXPECT_TRUE(last_frame(R"(, "gloss": 1, "roughness": 0.1, "relief_slope": 1, "pile": 1)",
+                           {"--as-published"}) == plain);
 }
 
 TEST(Press, half_a_newton_is_seen_on_two_percent_of_paper_and_ten_of_sponge) {
@@ -195,6 +195,21 @@ TEST(Press, lights_a_material_by_its_finish_and_its_height_map) {
     const files::Image level{kSize, kSize, std::vector<std::uint8_t>(4 * kSize * kSize, 128)};
     EXPECT_TRUE(last_frame(R"(, "height_map": "map.png")", {}, &level) ==
                 last_frame(R"(, "relief_slope": 0)", {}));
+}
+
+TEST(Press, keeps_the_trail_of_a_finger_on_a_pile_after_it_has_left) {
+    const auto rubbed = [](const std::string& pile) {
+        Scratch scratch;
+        scratch.put("m.json", R"({"schema": "tribo.material/1", "stiffness_n_per_mm": 4,
+            "viscosity_n_s_per_mm": 0, "width_mm": 80, "pile": )" +
+                                  pile + "}");
+        scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,20,40,1\n0.5,60,40,1\n0.6,60,40,0\n1,60,40,0\n");
+        const Outcome run = press(scratch, {"--size", "48", "--fps", "10"});
+        EXPECT_EQ(run.code, 0) << run.err;
+        const auto frame = files::parse_image(scratch.get("out/frame_0010.png"), "frame");
+        return frame ? frame->rgba : std::vector<std::uint8_t>();
+    };
+    EXPECT_GT(elastic::share_seen(rubbed("0"), rubbed("0.5")), 0.05);
 }
 
 TEST(Press, refuses_what_it_cannot_do_and_leaves_nothing) {

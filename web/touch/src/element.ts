@@ -5,7 +5,7 @@ import { wordsOf } from "@tribo/ui/dom";
 import { AttributeElement } from "./attributes.js";
 import { Voice, warmSound } from "./audio.js";
 import { engine, type Sheet } from "./engine.js";
-import { Finger, measuredPressure, type FingerReport } from "./fingers.js";
+import { Finger, kFullForceN, measuredPressure, type FingerReport } from "./fingers.js";
 import { animate, stop, whenIdle } from "./frames.js";
 import { smallRelief, stiffnessLevels, stiffnessPalette } from "./maps.js";
 import { parseMaterial, type Material } from "./material.js";
@@ -389,13 +389,17 @@ export class TriboTouch extends AttributeElement {
     const picture = this.#picture;
     if (sheet === undefined || picture === undefined || this.#context === null || this.#renderer!.lost) return false;
     const contacts = [...this.#fingers.values()].map((finger) => finger.contact(now));
-    sheet.press(contacts, this.asPublished, this.getAttribute("contact") === "point");
+    const hairy = (picture.finish?.pile ?? 0) > 0;
+    sheet.press(contacts, this.asPublished, this.getAttribute("contact") === "point", hairy);
     const moving = sheet.step(seconds, this.asPublished);
     const changes = sheet.changes();
     if (changes !== null) this.#renderer!.upload(picture, changes);
+    const leans = sheet.leans();
+    if (leans !== null) this.#renderer!.lean(picture, leans);
     if (this.#context.canvas.width > 0) {
       const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
-      if (this.#renderer!.draw(picture, this.#context, !still)) this.#parts!.surface.classList.add("drawn");
+      const fullMm = kFullForceN / this.stiffness;
+      if (this.#renderer!.draw(picture, this.#context, !still, fullMm)) this.#parts!.surface.classList.add("drawn");
     }
     this.#sound(now, seconds);
     for (const [id, finger] of this.#fingers) this.#tell("contact-move", id, finger, now * 1000);

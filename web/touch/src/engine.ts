@@ -12,6 +12,9 @@ export interface Contact {
   halfHeight: number;
   force: number;
   held: number;
+  /** Its way here since the last frame; absent: it has not moved. */
+  dx?: number;
+  dy?: number;
 }
 
 export interface Changes {
@@ -25,8 +28,17 @@ export interface Changes {
   values: Float32Array;
 }
 
+/** How the hairs of a pile lean: x and y of each node. */
+export interface Leans {
+  width: number;
+  height: number;
+  values: Float32Array;
+}
+
 const kMostContacts = 16;
 const kContactDoubles = 7;
+// Nodes of the sheet for each of the pile, along one side (src/elastic/pile.hpp).
+const kPileNodes = 4;
 
 export class Sheet {
   readonly width: number;
@@ -59,7 +71,8 @@ export class Sheet {
     );
   }
 
-  press(contacts: Contact[], published: boolean, point = false): void {
+  /** `brush`: there are hairs that a moving contact turns. */
+  press(contacts: Contact[], published: boolean, point = false, brush = false): void {
     const count = Math.min(contacts.length, kMostContacts);
     const numbers = doublesAt(this.#x, this.#x.sheet_contacts(this.#handle), kMostContacts * kContactDoubles);
     for (let i = 0; i < count; ++i) {
@@ -67,6 +80,8 @@ export class Sheet {
       numbers.set([c.x, c.y, c.halfWidth, c.halfHeight, 0, c.force, c.held], i * kContactDoubles);
     }
     this.#x.sheet_press(this.#handle, count, Number(point), Number(published));
+    if (brush)
+      contacts.slice(0, count).forEach(({ dx = 0, dy = 0 }, n) => this.#x.sheet_brush(this.#handle, n, dx, dy));
   }
 
   /** Advances the time. Returns false when nothing moves any more. */
@@ -74,8 +89,13 @@ export class Sheet {
     return this.#x.sheet_step(this.#handle, seconds, Number(published)) !== 0;
   }
 
-  reset(): void {
-    this.#x.sheet_reset(this.#handle);
+  /** Null before the pile is brushed. Valid until the next call of the engine. */
+  leans(): Leans | null {
+    const at = this.#x.sheet_leans(this.#handle);
+    const nodes = (ofSheet: number) => Math.max(1, Math.floor(ofSheet / kPileNodes));
+    const width = nodes(this.width);
+    const height = nodes(this.height);
+    return at === 0 ? null : { width, height, values: floatsAt(this.#x, at, 2 * width * height) };
   }
 
   /** Region that moved since the last call, or null. */

@@ -15,7 +15,7 @@ export interface FingerReport {
 }
 
 // Force of a full press, and the time to reach it if the pressure is not measured.
-const kFullForceN = 2;
+export const kFullForceN = 2;
 const kGrowthS = 0.25;
 const kMeasuredForceN = 3;
 const kDefaultRadiusMm = 6;
@@ -44,6 +44,8 @@ export class Finger {
   #trail: Place[] = [];
   // Position predicted by the browser.
   #ahead: Place | undefined;
+  // Where the last frame drew it.
+  #drawn: { x: number; y: number } | undefined;
   /** Factor on the usual force; the keyboard changes it. */
   firmness = 1;
 
@@ -90,14 +92,21 @@ export class Finger {
     return seconds > 0 ? length / seconds : 0;
   }
 
+  /** For the frame at `now`. */
   contact(now: number): Contact {
     const last = this.#trail.at(-1)!;
     const ahead = this.#ahead ?? last;
     // A report is some milliseconds old when it is drawn, but the dent should be under the finger.
     const part = Math.min(1, Math.max(0, (now - last.time) / (ahead.time - last.time || 1)));
+    const x = last.x + part * (ahead.x - last.x);
+    const y = last.y + part * (ahead.y - last.y);
+    const before = this.#drawn ?? { x, y };
+    this.#drawn = { x, y };
     return {
-      x: last.x + part * (ahead.x - last.x),
-      y: last.y + part * (ahead.y - last.y),
+      x,
+      y,
+      dx: x - before.x,
+      dy: y - before.y,
       halfWidth: this.#halfWidth,
       halfHeight: this.#halfHeight,
       force: this.force(now),

@@ -84,6 +84,7 @@ export interface Material {
   relief_slope: number;
   gloss: number;
   roughness: number;
+  pile: number;
   method: string;
   highpass_hz: number;
   level_law: LevelLaw | undefined;
@@ -104,6 +105,7 @@ export const kFields: Fields = {
   relief_slope: { from: 0, to: 1, absent: 0.2 },
   gloss: { from: 0, to: 1, absent: 0.04 },
   roughness: { from: 0.05, to: 1, absent: 0.5 },
+  pile: { from: 0, to: 1, absent: 0 },
   method: { text: 10000, absent: "" },
   highpass_hz: { from: 0, to: 1e5, absent: 0 },
   level_law: {

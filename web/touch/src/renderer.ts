@@ -2,7 +2,7 @@
 // One WebGL2 context for all elements of a page (browsers allow only about sixteen). Image and heights of each
 // element are textures of this context. Each frame is drawn into a corner of it and copied to the canvas of the
 // element.
-import type { Changes } from "./engine.js";
+import type { Changes, Leans } from "./engine.js";
 import { kFragment, kVertex } from "./shader.js";
 
 /** Data that an element shows. Its textures are in the shared context until free() is called. */
@@ -13,18 +13,14 @@ export interface Picture {
   nodesY: number;
   spacingMm: number;
   /** Share of the light reflected as in a mirror, and its spread; absent: as published, smooth and matt. */
-  finish: { gloss: number; roughness: number } | undefined;
+  finish: { gloss: number; roughness: number; pile?: number } | undefined;
   /** Slopes of the small relief in red and green, when they are known. */
   relief?: ImageData;
 }
 
-interface Textures {
-  image: WebGLTexture;
-  heights: WebGLTexture;
-  relief: WebGLTexture;
-}
-
-const kUniforms = ["image", "heights", "relief", "gloss", "extent", "node", "spacing", "longer", "parallax"] as const;
+// Textures of a picture, in the order of their units.
+const kTextures = ["image", "heights", "relief", "leans"] as const;
+const kUniforms = [...kTextures, "gloss", "extent", "node", "spacing", "longer", "parallax", "full", "pile"] as const;
 type Uniforms = Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
 
 function shader(gl: WebGL2RenderingContext, type: number, source: string): WebGLShader {
@@ -40,7 +36,7 @@ export class Renderer extends EventTarget {
   #program: WebGLProgram | null = null;
   #uniforms!: Uniforms;
   #floatHeights = false;
-  #textures = new Map<Picture, Textures>();
+  #textures = new Map<Picture, WebGLTexture[]>();
   #largest = 4096;
 
   constructor() {
@@ -88,39 +84,41 @@ export class Renderer extends EventTarget {
     }
     this.#uniforms = Object.fromEntries(kUniforms.map((n) => [n, gl.getUniformLocation(program, n)])) as Uniforms;
     gl.useProgram(program);
-    gl.uniform1i(this.#uniforms.image, 0);
-    gl.uniform1i(this.#uniforms.heights, 1);
-    gl.uniform1i(this.#uniforms.relief, 2);
+    kTextures.forEach((name, unit) => gl.uniform1i(this.#uniforms[name], unit));
     this.#program = program;
   }
 
   add(picture: Picture): void {
     const gl = this.#gl;
     if (this.lost || this.#textures.has(picture)) return;
-    const image = gl.createTexture();
-    const heights = gl.createTexture();
-    const relief = gl.createTexture();
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, image);
+    this.#textures.set(
+      picture,
+      kTextures.map(() => gl.createTexture()),
+    );
+    this.#bind(picture, "image");
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, this.#fitting(picture.image));
-    gl.generateMipmap(gl.TEXTURE_2D);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    this.#clamp();
-    gl.bindTexture(gl.TEXTURE_2D, heights);
+    this.#smooth(true);
+    this.#bind(picture, "heights");
     gl.texStorage2D(gl.TEXTURE_2D, 1, this.#floatHeights ? gl.R32F : gl.R16F, picture.nodesX, picture.nodesY);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
-    this.#clamp();
-    this.#textures.set(picture, { image, heights, relief });
+    this.#smooth();
+    this.lean(picture, { width: 1, height: 1, values: new Float32Array(2) });
     this.relieve(picture);
+  }
+
+  /** Makes this texture of the picture the current one of its unit. Returns whether there is one. */
+  #bind(picture: Picture, name: (typeof kTextures)[number]): boolean {
+    const unit = kTextures.indexOf(name);
+    const texture = this.#textures.get(picture)?.[unit];
+    if (texture === undefined) return false;
+    this.#gl.activeTexture(this.#gl.TEXTURE0 + unit);
+    this.#gl.bindTexture(this.#gl.TEXTURE_2D, texture);
+    return true;
   }
 
   /** Sets the small relief of the picture; until then it is smooth. */
   relieve(picture: Picture): void {
-    const textures = this.#textures.get(picture);
-    if (textures === undefined) return;
     const gl = this.#gl;
-    gl.activeTexture(gl.TEXTURE2);
-    gl.bindTexture(gl.TEXTURE_2D, textures.relief);
+    if (!this.#bind(picture, "relief")) return;
     gl.texImage2D(
       gl.TEXTURE_2D,
       0,
@@ -129,14 +127,21 @@ export class Renderer extends EventTarget {
       gl.UNSIGNED_BYTE,
       picture.relief ?? new ImageData(new Uint8ClampedArray([128, 128, 0, 255]), 1),
     );
-    gl.generateMipmap(gl.TEXTURE_2D);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    this.#clamp();
+    this.#smooth(true);
   }
 
-  #clamp(): void {
+  lean(picture: Picture, { width, height, values }: Leans): void {
     const gl = this.#gl;
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+    if (!this.#bind(picture, "leans")) return;
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RG16F, width, height, 0, gl.RG, gl.FLOAT, values);
+    this.#smooth();
+  }
+
+  /** Interpolation of the current texture; `small` ones of it serve where it is drawn smaller. */
+  #smooth(small = false): void {
+    const gl = this.#gl;
+    if (small) gl.generateMipmap(gl.TEXTURE_2D);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, small ? gl.LINEAR_MIPMAP_LINEAR : gl.LINEAR);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE);
     gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE);
   }
@@ -154,20 +159,13 @@ export class Renderer extends EventTarget {
   }
 
   free(picture: Picture): void {
-    const textures = this.#textures.get(picture);
-    if (textures === undefined) return;
-    this.#gl.deleteTexture(textures.image);
-    this.#gl.deleteTexture(textures.heights);
-    this.#gl.deleteTexture(textures.relief);
+    for (const texture of this.#textures.get(picture) ?? []) this.#gl.deleteTexture(texture);
     this.#textures.delete(picture);
   }
 
   upload(picture: Picture, changes: Changes): void {
-    const textures = this.#textures.get(picture);
-    if (textures === undefined) return;
     const gl = this.#gl;
-    gl.activeTexture(gl.TEXTURE1);
-    gl.bindTexture(gl.TEXTURE_2D, textures.heights);
+    if (!this.#bind(picture, "heights")) return;
     gl.pixelStorei(gl.UNPACK_ROW_LENGTH, changes.stride);
     gl.texSubImage2D(
       gl.TEXTURE_2D,
@@ -183,24 +181,17 @@ export class Renderer extends EventTarget {
     gl.pixelStorei(gl.UNPACK_ROW_LENGTH, 0);
   }
 
-  /** Draws the picture and copies it to a canvas of the element. */
-  draw(picture: Picture, to: CanvasRenderingContext2D, parallax: boolean): boolean {
-    const textures = this.#textures.get(picture);
-    if (textures === undefined) return false;
+  /** Draws the picture and copies it to a canvas of the element. `fullMm`: depth of a full press. */
+  draw(picture: Picture, to: CanvasRenderingContext2D, parallax: boolean, fullMm: number): boolean {
     const gl = this.#gl;
+    for (const name of kTextures) if (!this.#bind(picture, name)) return false;
     const { width, height } = to.canvas;
     if (this.canvas.width < width || this.canvas.height < height) {
       this.canvas.width = Math.max(this.canvas.width, width);
       this.canvas.height = Math.max(this.canvas.height, height);
     }
     gl.viewport(0, this.canvas.height - height, width, height);
-    gl.activeTexture(gl.TEXTURE0);
-    gl.bindTexture(gl.TEXTURE_2D, textures.image);
-    gl.activeTexture(gl.TEXTURE1);
-    gl.bindTexture(gl.TEXTURE_2D, textures.heights);
-    gl.activeTexture(gl.TEXTURE2);
-    gl.bindTexture(gl.TEXTURE_2D, textures.relief);
-    const { gloss, roughness } = picture.finish ?? { gloss: -1, roughness: 1 };
+    const { gloss, roughness, pile = 0 } = picture.finish ?? { gloss: -1, roughness: 1 };
     const power = 2 / roughness ** 2 - 2;
     gl.uniform2f(this.#uniforms.gloss, power, (gloss * (power + 2)) / 8);
     const longer = Math.max(picture.nodesX, picture.nodesY);
@@ -208,6 +199,8 @@ export class Renderer extends EventTarget {
     gl.uniform2f(this.#uniforms.node, 1 / picture.nodesX, 1 / picture.nodesY);
     gl.uniform1f(this.#uniforms.spacing, picture.spacingMm);
     gl.uniform1f(this.#uniforms.longer, longer * picture.spacingMm);
+    gl.uniform1f(this.#uniforms.pile, pile);
+    gl.uniform1f(this.#uniforms.full, fullMm);
     gl.uniform1f(this.#uniforms.parallax, Number(parallax));
     gl.drawArrays(gl.TRIANGLE_STRIP, 0, 4);
     to.globalCompositeOperation = "copy";

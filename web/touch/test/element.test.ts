@@ -61,6 +61,25 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     });
   });
 
+  test("keeps the trail of a rub where there is a pile, and lets its hairs rise", async () => {
+    const page = await open(kTag.replace("sponge.json", "velvet.json"));
+    await settled(page);
+    await frames(page, 3);
+    expect(await changed(page)).toBe(0);
+    const hand = await fingers(page);
+    for (let x = 60; x <= 180; x += 20) {
+      await hand.touch([{ x, y: 100, force: 0.4 }]);
+      await frames(page, 2);
+    }
+    await hand.touch([]);
+    // The sheet is flat again after a second, the hairs are not.
+    await page.waitForTimeout(2000);
+    const trail = await changed(page);
+    expect(trail).toBeGreaterThan(300);
+    await expect.poll(() => changed(page), { timeout: 40_000 }).toBeLessThan(trail / 10);
+    expect(errors).toEqual([]);
+  }, 60_000);
+
   test("takes five fingers at once, a rub, a cancel and a mouse", async () => {
     const page = await open(kTag);
     await settled(page);

@@ -153,7 +153,7 @@ describe.skipIf(!hasBrowser)("tribo-touch from its loading to its end", () => {
     expect(after - before).toBeLessThan(1_500_000);
     // The one element that stays has an image, heights and relief; all share the contexts.
     const { webgl, audio, worklets, textures } = await page.evaluate(() => window.made);
-    expect([webgl, textures]).toEqual([1, 3]);
+    expect([webgl, textures]).toEqual([1, 4]);
     expect(audio).toBeLessThanOrEqual(1);
     expect(worklets).toBeLessThanOrEqual(1);
     expect(errors).toEqual([]);

@@ -68,19 +68,23 @@ const drawn = (finish: Finish, force: number) =>
         made.smallRelief(picture.relief, 0.2);
       }
       sheet.setMaterial(2, 0);
-      sheet.press([{ x: 14, y: 17, halfWidth: 4, halfHeight: 4, force: newton, held: 0 }], false);
+      const finger = { x: 14, y: 17, halfWidth: 4, halfHeight: 4, force: newton, held: 0 };
+      sheet.press([{ ...finger, x: 24, dx: 6, dy: -4 }], false, false, newton > 0);
+      sheet.press([finger], false);
       sheet.step(1, false);
       const context = document.querySelector("canvas")!.getContext("2d")!;
       renderer().add(picture);
       renderer().upload(picture, sheet.everything());
-      renderer().draw(picture, context, true);
+      const leans = sheet.leans();
+      if (leans !== null) renderer().lean(picture, leans);
+      renderer().draw(picture, context, true, 1);
       renderer().free(picture);
       sheet.free();
       return [...context.getImageData(0, 0, side, side).data];
     },
     { side: kSide, how: finish, newton: force },
   );
-const kFinish: Finish = { gloss: 0.1, roughness: 0.3 };
+const kFinish: Finish = { gloss: 0.1, roughness: 0.3, pile: 0.5 };
 
 test.skipIf(!hasBrowser)("the shader draws the picture that picture.cpp draws", async () => {
   const file = await readFile(join(ROOT, "tests/elastic/pressed.ppm"));

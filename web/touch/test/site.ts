@@ -77,6 +77,7 @@ const made: Record<string, () => Body> = {
   "/halves.png": () => png(64, 48, (x) => (x < 32 ? [255, 255, 255] : [0, 0, 0])),
   "/sponge.json": () => JSON.stringify(material()),
   "/plain.json": () => JSON.stringify(material({ image: "plain.png", voices: [] })),
+  "/velvet.json": () => JSON.stringify(material({ image: "plain.png", voices: [], pile: 0.6 })),
   "/mapped.json": () => JSON.stringify(material({ image: "plain.png", height_map: "ridges.png", voices: [] })),
   "/mismapped.json": () => JSON.stringify(material({ height_map: "ridges.png" })),
   "/ridges.png": () => png(96, 96, (x) => (x % 8 < 4 ? [255, 255, 255] : [0, 0, 0])),

@@ -28,15 +28,17 @@ export interface TouchExports extends CommonExports {
   /** Address for contacts before sheet_press: 7 doubles each. */
   sheet_contacts(sheet: number): Address;
   sheet_press(sheet: number, count: number, point: number, published: number): void;
+  /** Contact `n` has moved by (dx, dy) mm and brushed the pile. */
+  sheet_brush(sheet: number, n: number, dx: number, dy: number): void;
+  /** x and y of the lean of each node of the pile; 0 before the first brush. */
+  sheet_leans(sheet: number): Address;
   /** 1 while anything moves. */
   sheet_step(sheet: number, seconds: number, published: number): number;
-  sheet_reset(sheet: number): void;
   /** x, y, width and height of the region that moved since the last call, as int32. */
   sheet_changes(sheet: number): Address;
   sheet_heights(sheet: number): Address;
   /** Number of floats from row to row. */
   sheet_stride(sheet: number): number;
-  sheet_normals(sheet: number, axis: number): Address;
   sheet_small_relief(rgba: Address, width: number, height: number, rmsSlope: number): void;
   /** 0: refused; voice_refusal() gives the reason. */
   voice_create(numbers: Address, length: number, rate: number, seed: number, published: number): number;
