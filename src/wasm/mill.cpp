@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The C ABI of tribo.wasm for the worker of the mill page: files in by name, a job opened, time that passes,
-// frames out (docs/live-protocol.md). The frames are the same as those of an engine. One mill per module.
+// frames out (docs/live-protocol.md). The frames are the same as those of an engine. One open mill per
+// module.
 //
 // Texts go in as bytes and a length, in memory from tribo_allocate; what comes out stays until the next call.
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -14,6 +16,7 @@
 #include "motion/machine/machine.hpp"
 #include "session/live/live_audit.hpp"
 #include "session/live/single_threaded_touch.hpp"
+#include "surface/part_difference.hpp"
 #include "wasm/mill_job.hpp"
 
 #define TRIBO_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -23,7 +26,8 @@ namespace {
 using namespace tribo;
 
 struct Mill {
-    job::MemorySource files;  // given by the page
+    job::MemorySource files;                  // given by the page
+    std::unique_ptr<session::LiveMill> kept;  // see mill_keep()
     // Each of these three must be destroyed before those above it.
     std::unique_ptr<session::LiveMill> live;
     std::unique_ptr<session::LiveController> controller;
@@ -31,6 +35,7 @@ struct Mill {
     bool files_changed = false;  // since the open job was read
     std::string text;
     std::vector<double> audit_lines;
+    std::array<double, 2> volumes_mm3{};
     std::vector<std::uint8_t> frames;  // each: u32 length, u32 0, its bytes, zeros to a multiple of 8
 };
 
@@ -149,6 +154,21 @@ TRIBO_EXPORT(mill_audit) std::uint32_t mill_audit() {
 }
 TRIBO_EXPORT(mill_audit_lines) const double* mill_audit_lines() {
     return mill().audit_lines.data();
+}
+// Keeps the open mill aside for mill_volumes(); then no job is open.
+TRIBO_EXPORT(mill_keep) void mill_keep() {
+    mill().touch.reset();
+    mill().controller.reset();
+    mill().kept = std::move(mill().live);
+}
+// Returns the volume of the material that only the part of the mill that was kept has, and that only the part
+// of the open one has, mm3 (surface/part_difference.hpp). Returns null without both.
+TRIBO_EXPORT(mill_volumes) const double* mill_volumes() {
+    if (!mill().kept || !mill().live) return nullptr;
+    const surface::VolumeDifference v =
+        surface::volume_difference(mill().kept->session().stock(), mill().live->session().stock());
+    mill().volumes_mm3 = {v.only_a_mm3, v.only_b_mm3};
+    return mill().volumes_mm3.data();
 }
 // Returns all known materials, one per line.
 TRIBO_EXPORT(mill_materials) const char* mill_materials() {

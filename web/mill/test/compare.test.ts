@@ -157,7 +157,9 @@ describe.runIf(hasMillPage)("two runs from the page", () => {
       expect(await frame.textContent(".verdict")).toBe(
         "Time, peak force and peak power do not differ. The parts are the same.",
       );
-      expect(await frame.textContent("#parts .facts")).toBe("Their surfaces are the same.");
+      expect(await frame.textContent("#parts .facts")).toBe(
+        "Both parts hold the same material.Their surfaces are the same.",
+      );
       await page.click("#comparison-close");
     },
     3 * PATIENCE_MS,
@@ -178,7 +180,12 @@ describe.runIf(hasMillPage)("two runs from the page", () => {
       expect(await frame.textContent(".verdict")).toMatch(/^B: peak force across the axis .* The parts are up to \d/);
       expect(await frame.textContent(".facts")).toContain("The cutters differ.");
       const facts = (await frame.textContent("#parts .facts"))!;
-      expect(facts).toMatch(/^B cuts [\d.]+ mm deeper at most, at /);
+      const [, onlyA] = /^Only A holds ([\d.]+) mm³, only B holds 0 mm³\.B cuts [\d.]+ mm deeper at most, at /.exec(
+        facts,
+      )!;
+      // Two slots of 30 mm, 2 mm deep: segments of a circle.
+      const slot = (r: number) => r ** 2 * Math.acos((r - 2) / r) - (r - 2) * Math.sqrt(4 * r - 4);
+      expect(Number(onlyA) / (60 * (slot(4) - slot(3)))).toBeCloseTo(1, 2);
       // The edge of the slot of A, 2 mm below the centre of the ball of B and sqrt(3^2 - 1^2) mm beside it.
       expect(Number(/cuts ([\d.]+) mm/.exec(facts)![1])).toBeCloseTo(4 - Math.sqrt(12), 3);
       expect(facts).not.toContain("leaves");

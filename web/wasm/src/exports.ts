@@ -99,6 +99,10 @@ export interface MillExports extends CommonExports {
   mill_audit(): number;
   /** `lines` times AUDIT_COLUMNS.length doubles, in the order of time. */
   mill_audit_lines(): Address;
+  /** Keeps the open mill aside, for mill_volumes(). */
+  mill_keep(): void;
+  /** Two doubles: the material that only the part kept has, and that only the part of the open mill has, mm3. */
+  mill_volumes(): Address;
   /** All known materials, one per line. */
   mill_materials(): Address;
   /** All known machines, separated by ", ". */

@@ -2,7 +2,7 @@
 // Mills two runs beside the page, one after the other, and each once more against the part of the other.
 
 import type { MillExports, MillSoundExports } from "@tribo/wasm/exports";
-import { textAt } from "@tribo/wasm/memory";
+import { doublesAt, textAt } from "@tribo/wasm/memory";
 import { compile, instantiate } from "@tribo/wasm/module";
 import { stl } from "../keep/stl.js";
 import { RATE, type Clip } from "../learn/clip.js";
@@ -24,6 +24,8 @@ export interface Compared {
   a: Told;
   b: Told;
   extremes: Extremes;
+  /** Material that only one of the parts has, mm3. */
+  only: { a: number; b: number };
 }
 export type FromCompare = { share: number } | { why: string } | { compared: Compared };
 
@@ -61,9 +63,13 @@ async function compare(sides: ToCompare): Promise<Compared> {
   done = 1;
   const b = await run(sides.b, cell, progress);
   done = 2;
-  const againstB = piecesAgainst(await freshMill(), sides.a, cell, stl(trianglesOf(b.pieces)), progress);
+  // Both in one module, which then has the material of both.
+  const both = await freshMill();
+  const againstB = piecesAgainst(both, sides.a, cell, stl(trianglesOf(b.pieces)), progress);
+  both.mill_keep();
   done = 3;
-  const againstA = piecesAgainst(await freshMill(), sides.b, cell, stl(trianglesOf(a.pieces)), progress);
+  const againstA = piecesAgainst(both, sides.b, cell, stl(trianglesOf(a.pieces)), progress);
+  const [onlyA, onlyB] = doublesAt(both, both.mill_volumes(), 2);
   const surfaces = [surfaceOf(againstB, -1), surfaceOf(againstA, 1)] as const;
   const range = rangeOf(surfaces);
   return {
@@ -71,6 +77,7 @@ async function compare(sides: ToCompare): Promise<Compared> {
     a: { ...a.of, seen: packed(surfaces[0], range) },
     b: { ...b.of, seen: packed(surfaces[1], range) },
     extremes: extremesOf(surfaces),
+    only: { a: onlyA!, b: onlyB! },
   };
 }
 

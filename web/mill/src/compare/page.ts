@@ -126,9 +126,13 @@ function verdict({ a, b, extremes }: Compared): string {
   return `${first} ${parts}`;
 }
 
-function partFacts({ more, less }: Compared["extremes"]): string[] {
-  if (!more && !less) return [t("Their surfaces are the same.")];
-  const facts: string[] = [];
+function partFacts({ only, extremes: { more, less } }: Compared): string[] {
+  const held =
+    only.a === 0 && only.b === 0
+      ? t("Both parts hold the same material.")
+      : t("Only A holds {a} mm³, only B holds {b} mm³.", { a: digits(only.a), b: digits(only.b) });
+  if (!more && !less) return [held, t("Their surfaces are the same.")];
+  const facts = [held];
   const size = (mm: number) => (mm >= REACH_MM ? t("over {far}", { far: digits(REACH_MM) }) : digits(mm));
   if (more) facts.push(t("B leaves {mm} mm more at most, at {place}.", { mm: size(more.mm), place: placed(more.at) }));
   if (less) facts.push(t("B cuts {mm} mm deeper at most, at {place}.", { mm: size(-less.mm), place: placed(less.at) }));
@@ -287,7 +291,7 @@ export function comparisonPage(compared: Compared, names: { a: Named; b: Named }
     notices: () => notice(t("Compared as they stand"), setUp(compared)),
     totals: () => totals(compared),
     views: () => view("a", names.a.name) + view("b", names.b.name),
-    part_facts: () => list(partFacts(compared.extremes)),
+    part_facts: () => list(partFacts(compared)),
     joined: () =>
       joined.by === "line"
         ? t("Both cuts are joined by line: both runs cut in the same lines, in the same order.")

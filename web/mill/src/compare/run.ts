@@ -129,7 +129,7 @@ export function heardOf(mill: MillExports, ear: MillSoundExports, side: Side, ce
   return clipOf(mill, ear, { from_s, skip_s: 0, seconds: HEARD_S });
 }
 
-/** The pieces of a side once more, with their distances from another part, an STL file. Takes a fresh module. */
+/** The pieces of a side once more, with their distances from another part, an STL file. Takes a fresh module, or one whose mill is kept. */
 export function piecesAgainst(
   mill: MillExports,
   side: Side,

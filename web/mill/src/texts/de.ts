@@ -428,6 +428,8 @@ export const TABLE: Table = {
   "The parts are the same.": "Die Werkstücke sind gleich.",
   "Their surfaces are the same.": "Ihre Oberflächen sind gleich.",
   "over {far}": "über {far}",
+  "Both parts hold the same material.": "Beide Teile enthalten dasselbe Material.",
+  "Only A holds {a} mm³, only B holds {b} mm³.": "Nur A enthält {a} mm³, nur B enthält {b} mm³.",
   "B leaves {mm} mm more at most, at {place}.": "B lässt höchstens {mm} mm mehr stehen, bei {place}.",
   "B cuts {mm} mm deeper at most, at {place}.": "B schneidet höchstens {mm} mm tiefer, bei {place}.",
   "The stock, or its frame, differs.": "Das Rohteil oder seine Lage ist ein anderes.",
