@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The clock text of the page, and its stored settings.
+// The clock text of the page, its theme, and its stored settings.
 
 export function clock(seconds: number): string {
   const s = Math.floor(seconds);
   return `${Math.floor(s / 60)}:${String(s % 60).padStart(2, "0")}`;
+}
+
+// What is drawn by hand is drawn anew when this changes.
+export function theme(): string {
+  return `${document.documentElement.dataset.theme} ${matchMedia("(prefers-color-scheme: dark)").matches}`;
 }
 
 // Settings kept between visits, if the browser allows storage.

@@ -6,7 +6,7 @@ import { afterEach, describe, expect, it, vi } from "vitest";
 import { liveUrl } from "../src/sources/connection.js";
 import { growthColour } from "../src/sight/chatter_colours.js";
 import { verdict } from "../src/panels/chatter.js";
-import { History } from "../src/panels/history.js";
+import { History, overTime } from "../src/panels/history.js";
 import { heat } from "../src/sight/heat.js";
 import { sort, tooLarge } from "../src/sources/drop.js";
 import { unpacked } from "../src/sources/tools.js";
@@ -17,6 +17,7 @@ import type { Listener } from "../src/sources/source.js";
 import { waysOf } from "../src/sight/path_lines.js";
 import { outline } from "../src/sight/tool.js";
 import { spectrum, turn } from "../src/panels/turn.js";
+import type { Row } from "@tribo/protocol/frames";
 import type { Vec3 } from "@tribo/protocol/vec3";
 
 describe("heat", () => {
@@ -27,6 +28,25 @@ describe("heat", () => {
   it("stays on its scale", () => {
     expect(heat(-1)).toEqual(heat(0));
     expect(heat(2)).toEqual(heat(1));
+  });
+});
+
+describe("a plot over time", () => {
+  const cut = (time: number, peakForce: number) => ({ time, duration: 1, peakForce }) as Row;
+  const peak = (row: Row) => row.peakForce;
+  it("has no line where nothing is cut", () => {
+    const rounding = 2 ** -12;
+    const rows = [cut(0, 5), cut(1 + rounding, 6), cut(4, 7)];
+    expect(overTime(rows, peak)).toEqual([
+      [0, 1 + rounding, 2 + rounding, 4],
+      [5, 6, null, 7],
+    ]);
+  });
+  it("shows the largest of many rows", () => {
+    const rows = Array.from({ length: 5000 }, (_, n) => cut(n, n === 4321 ? 99 : 1));
+    const [times, peaks] = overTime(rows, peak);
+    expect(times.length).toBeLessThan(2000);
+    expect(Math.max(...peaks!.map(Number))).toBe(99);
   });
 });
 

@@ -319,6 +319,18 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
       await page.focus("#tab-sound");
       await page.keyboard.press("ArrowRight");
       expect(await page.getAttribute("#tab-force", "aria-selected")).toBe("true");
+      // An open plot follows the theme.
+      const white = () =>
+        page.evaluate(() => {
+          const canvas = document.querySelector<HTMLCanvasElement>("#plot-panel canvas")!;
+          const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
+          return data.reduce((count, _, n) => count + Number(n % 4 === 0 && data[n]! > 220 && data[n + 2]! > 220), 0);
+        });
+      expect(await white()).toBe(0);
+      await page.emulateMedia({ colorScheme: "dark" });
+      await expect.poll(white, { timeout: PATIENCE_MS }).toBeGreaterThan(20);
+      await page.emulateMedia({ colorScheme: "light" });
+      await expect.poll(white, { timeout: PATIENCE_MS }).toBe(0);
       await page.click("#show-plots");
     },
     PATIENCE_MS,

@@ -5,7 +5,7 @@
 import type { Piece, Row } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
 import { oncePerFrame } from "@tribo/ui/frame";
-import { clock } from "../page.js";
+import { clock, theme } from "../page.js";
 import { fixed, length, lengthUnit, onUnit } from "../texts/figures.js";
 import { t, word } from "../texts/texts.js";
 import { growthColour } from "../sight/chatter_colours.js";
@@ -193,8 +193,7 @@ export class Lanes {
   // What does not move with the clock. New values appear in it a few times a second.
   private groundNow(width: number, ratio: number): HTMLCanvasElement {
     const { ground, canvas } = this;
-    const { dataset } = document.documentElement;
-    const look = `${canvas.width} ${canvas.height} ${dataset.theme} ${matchMedia("(prefers-color-scheme: dark)").matches}`;
+    const look = `${canvas.width} ${canvas.height} ${theme()}`;
     const now = performance.now();
     if (look === this.groundLook && (!this.stale || now - this.groundAt < RENEWED_MS)) {
       // Once more, in case nothing else is drawn.

@@ -5,6 +5,31 @@ import type { Piece, Row } from "@tribo/protocol/frames";
 import { begunAt } from "../rows.js";
 
 const KEPT_PIECES = 4096;
+const MOST_POINTS = 2000;
+// Times of rows are sums of rounded durations.
+const SHORTEST_GAP_S = 1e-3;
+
+// With many rows, shows the largest value in each of MOST_POINTS intervals. Where nothing is cut there is no line.
+export function overTime(
+  rows: readonly Row[],
+  ...values: ((row: Row) => number)[]
+): [number[], ...(number | null)[][]] {
+  const step = Math.max(1, Math.ceil(rows.length / MOST_POINTS));
+  const times: number[] = [];
+  const curves = values.map((): (number | null)[] => []);
+  for (let n = 0; n < rows.length; n += step) {
+    const stretch = rows.slice(n, n + step);
+    const before = rows[n - 1];
+    const ended = before ? before.time + before.duration : Infinity;
+    if (ended < stretch[0]!.time - SHORTEST_GAP_S) {
+      times.push(ended);
+      for (const curve of curves) curve.push(null);
+    }
+    times.push(stretch[0]!.time);
+    curves.forEach((curve, k) => curve.push(stretch.reduce((most, row) => Math.max(most, values[k]!(row)), -Infinity)));
+  }
+  return [times, ...curves];
+}
 
 export class History {
   rows: Row[] = [];

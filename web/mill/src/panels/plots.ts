@@ -5,15 +5,14 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 
-import type { Row } from "@tribo/protocol/frames";
-import type { History } from "./history.js";
+import { overTime, type History } from "./history.js";
+import { theme } from "../page.js";
 import { heat } from "../sight/heat.js";
 import type { Sound } from "../sound/sound.js";
 import { lengthUnit, onUnit, toField } from "../texts/figures.js";
 import { t, word } from "../texts/texts.js";
 import { spectrum, turn } from "./turn.js";
 
-const MOST_POINTS = 2000;
 const DEG = 180 / Math.PI;
 // Upper frequency of the spectrogram, Hz, and its lowest level, dB.
 const TOP_HZ = 8000;
@@ -28,18 +27,6 @@ interface View {
   seek?: boolean;
 }
 
-// With many rows, shows the largest value in each of MOST_POINTS intervals.
-function overTime(history: History, ...values: ((row: Row) => number)[]): uPlot.AlignedData {
-  const { rows } = history;
-  const step = Math.max(1, Math.ceil(rows.length / MOST_POINTS));
-  const stretches = Array.from({ length: Math.ceil(rows.length / step) }, (_, n) =>
-    rows.slice(n * step, (n + 1) * step),
-  );
-  const largest = (value: (row: Row) => number) =>
-    stretches.map((stretch) => stretch.reduce((most, row) => Math.max(most, value(row)), -Infinity));
-  return [stretches.map(([first]) => first!.time), ...values.map(largest)];
-}
-
 const VIEWS: View[] = [
   {
     name: word("Force"),
@@ -50,7 +37,7 @@ const VIEWS: View[] = [
     axes: ["s", "N"],
     data: (h) =>
       overTime(
-        h,
+        h.rows,
         (row) => row.peakForce,
         (row) => row.meanForce,
       ),
@@ -92,7 +79,7 @@ const VIEWS: View[] = [
     axes: ["s", word("degrees, {unit}")],
     data: (h) =>
       overTime(
-        h,
+        h.rows,
         (row) => row.exit * DEG,
         (row) => row.entry * DEG,
         (row) => Number(toField(row.depth)),
@@ -105,7 +92,7 @@ VIEWS.push({
   name: CHATTER,
   series: [{ label: word("multiplier, above 1: chatter"), stroke: "#d0342c" }],
   axes: ["s", word("growth")],
-  data: (h) => overTime(h, (row) => row.multiplier),
+  data: (h) => overTime(h.rows, (row) => row.multiplier),
   seek: true,
 });
 const SOUND = word("Sound");
@@ -116,6 +103,7 @@ export class Plots {
   private plot: uPlot | undefined;
   private open = VIEWS[0]!.name;
   private dirty = true;
+  private drawnTheme = theme();
   private heard: HTMLCanvasElement | undefined;
   private readonly chatter: HTMLElement;
 
@@ -164,6 +152,9 @@ export class Plots {
   update(): void {
     if (this.box.hidden) return;
     this.chatter.hidden = !this.history.bends;
+    const now = theme();
+    this.dirty ||= now !== this.drawnTheme;
+    this.drawnTheme = now;
     if (this.open === SOUND) {
       this.drawSound();
     } else if (this.dirty) {
@@ -199,8 +190,10 @@ export class Plots {
   }
 
   private make(view: View): void {
-    const ink = getComputedStyle(this.box).getPropertyValue("--ink");
-    const faint = getComputedStyle(this.box).getPropertyValue("--line");
+    // Of the theme at the time of drawing.
+    const colour = (name: string) => () => getComputedStyle(this.box).getPropertyValue(name);
+    const ink = colour("--ink");
+    const faint = colour("--line");
     const unit = lengthUnit();
     const axis = (label: string): uPlot.Axis => ({
       label: t(label, { unit }),
@@ -214,6 +207,7 @@ export class Plots {
       {
         ...this.size(),
         scales: { x: { time: false } },
+        hooks: { draw: view.seek ? [(plot) => this.drawNow(plot, ink())] : [] },
         cursor: { drag: { x: true, y: false } },
         axes: view.axes.map(axis),
         series: [
@@ -235,6 +229,14 @@ export class Plots {
       const { plot } = this;
       plot.over.addEventListener("dblclick", () => this.seek(plot.posToVal(plot.cursor.left ?? 0, "x")));
     }
+  }
+
+  private drawNow(plot: uPlot, ink: string): void {
+    const { ctx, bbox } = plot;
+    const x = plot.valToPos(this.history.time, "x", true);
+    if (!(x >= bbox.left && x <= bbox.left + bbox.width)) return;
+    ctx.fillStyle = ink;
+    ctx.fillRect(x - devicePixelRatio, bbox.top, 2 * devicePixelRatio, bbox.height);
   }
 
   private makeSound(): void {
