@@ -216,6 +216,8 @@ export class Incoming implements Listener {
     transport.show(state);
     if (state.playing) this.begun = true;
     element("begin").hidden = this.begun || this.duration === 0;
+    // They would cover what has been cut until then.
+    element("invitation").classList.toggle("away", state.time > 0);
     element("examples").hidden ||= this.begun;
     element("learn-begin").hidden ||= this.begun;
     this.shown = state;

@@ -231,7 +231,7 @@ describe.runIf(hasMillPage)("a first visit", () => {
       );
       // A click ends the glow; the next visit begins as it always did.
       await page.click("#job");
-      await expect.poll(() => glows.count()).toBe(0);
+      await expect.poll(() => glows.count(), { timeout: PATIENCE_MS }).toBe(0);
       await page.reload();
       await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
       await page.waitForTimeout(500);
@@ -262,6 +262,20 @@ describe.runIf(hasMillPage)("a first visit", () => {
       }
     },
     3 * PATIENCE_MS,
+  );
+
+  it(
+    "has its buttons in reach in the lowest window",
+    async () => {
+      const { context, page } = await visit();
+      await page.setViewportSize({ width: 480, height: 300 });
+      await page.click("#hear-it", { timeout: PATIENCE_MS });
+      await page.waitForSelector("body[data-film=plays]");
+      await page.click("#skip-film", { timeout: PATIENCE_MS });
+      await page.waitForSelector("body:not([data-film])");
+      await context.close();
+    },
+    2 * PATIENCE_MS,
   );
 
   it(
