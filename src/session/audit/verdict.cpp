@@ -69,6 +69,7 @@ class Judge {
         const MillCollision& first = all.front();
         std::string text =
             "line " + std::to_string(first.line) + ": " + std::string(milling::name(first.kind));
+        std::ranges::replace(text, '-', ' ');
         if (all.size() > 1) text += ", and " + std::to_string(all.size() - 1) + " more collisions";
         findings_.push_back({Outcome::over, std::move(text), first.line, {}});
     }

@@ -138,6 +138,19 @@ describe("the verdict", () => {
       "line 288: highest load, 679 N",
     ]);
   });
+  it("says a collision once, where the audit knows it too", () => {
+    const collisions = [{ time: 1, line: 9, what: "rapid through stock" }];
+    const findings = [
+      { outcome: "over", text: "line 9: rapid through stock", line: 9 },
+      { outcome: "over", text: "line 9, T1: the cutter breaks", line: 9, ratio: [1.2, 1.5, 2] },
+    ];
+    const audit = { verdict: { outcome: "over", sentence: "No: it hits.", findings }, tools: [] } as never;
+    expect(judge({ ...nothing, strongest, collisions, audit }).places.map(({ words }) => words)).toEqual([
+      "line 9: rapid through stock",
+      "line 9, T1: the cutter breaks",
+      "line 288: highest load, 679 N",
+    ]);
+  });
   it("has at most three places, the worst ones", () => {
     const chips = [
       { line: 4, verdict: "rubbing", chip: 0.002, time: 1 },

@@ -218,6 +218,8 @@ export class Plots {
             width: 1.5,
             points: { show: false },
             value: (_: uPlot, v: number | null) => v?.toPrecision(4) ?? "",
+            // A row stands for its whole time.
+            ...(view.seek ? { paths: uPlot.paths.stepped!({ align: 1 }) } : {}),
             ...(s.bars ? { paths: uPlot.paths.bars!({ size: [0.5, 24] }), fill: `${s.stroke}66` } : {}),
           })),
         ],

@@ -83,8 +83,12 @@ export function judge(facts: Facts): Judged {
   if (!audit || !facts.strongest) return { sentence: soFar(sentence), damage, places: places.slice(0, MOST_PLACES) };
   // A stress that is over its limit for sure, at the low ends of both bands.
   const breaks = audit.tools.some(({ stress_n_per_mm2: stress }) => (stress?.ratio?.[0] ?? 0) > 1);
-  const found = audit.verdict.findings.flatMap(({ outcome, text, line }): Place[] =>
-    line === undefined ? [] : [{ kind: outcome === "over" ? "overload" : "load", words: text, line, time: undefined }],
+  // A finding without a ratio at the line of a collision is that collision.
+  const [hit] = facts.collisions;
+  const found = audit.verdict.findings.flatMap(({ outcome, text, line, ratio }): Place[] =>
+    line === undefined || (line === hit?.line && ratio === undefined)
+      ? []
+      : [{ kind: outcome === "over" ? "overload" : "load", words: text, line, time: undefined }],
   );
   const all = [...places.filter(({ kind }) => kind === "damage"), ...found];
   const known = new Set(all.map((place) => place.line));
