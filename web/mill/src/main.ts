@@ -63,7 +63,7 @@ const transport = new Transport(
   () => history.rows,
 );
 const seek = (t_s: number) => transport.seek(t_s);
-const lanes = new Lanes(element<HTMLCanvasElement>("lanes"), element("time"));
+const lanes = new Lanes(element<HTMLCanvasElement>("lanes"), element("time"), (time) => history.rowAt(time));
 const program = new Program(seek);
 const numbers = new Now();
 const verdict = new Verdict(({ time: at, line: of }) => {

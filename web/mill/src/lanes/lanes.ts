@@ -21,6 +21,8 @@ interface Lane {
   name: string;
   unit: () => string;
   digits: (value: number) => string;
+  // Of a row; the sound is not of rows.
+  of?: (row: Row) => number;
   // Shown where the lanes are few.
   first?: boolean;
   // Share of the height of the force.
@@ -28,11 +30,44 @@ interface Lane {
 }
 
 const LANES: Record<Quantity, Lane> = {
-  force: { name: word("peak force"), unit: () => "N", digits: (v) => fixed(v, 0), first: true, height: 1 },
-  depth: { name: word("depth of cut"), unit: lengthUnit, digits: (v) => length(v, 2), first: true, height: 0.6 },
-  multiplier: { name: word("chatter, |mu|"), unit: () => "", digits: (v) => fixed(v, 2), first: true, height: 0.6 },
-  chip: { name: word("thickest chip"), unit: lengthUnit, digits: (v) => length(v, 3), height: 0.6 },
-  power: { name: word("spindle power"), unit: () => "W", digits: (v) => fixed(v, 0), height: 0.6 },
+  force: {
+    name: word("peak force"),
+    unit: () => "N",
+    digits: (v) => fixed(v, 0),
+    of: (row) => row.peakForce,
+    first: true,
+    height: 1,
+  },
+  depth: {
+    name: word("depth of cut"),
+    unit: lengthUnit,
+    digits: (v) => length(v, 2),
+    of: (row) => row.depth,
+    first: true,
+    height: 0.6,
+  },
+  multiplier: {
+    name: word("chatter, |mu|"),
+    unit: () => "",
+    digits: (v) => fixed(v, 2),
+    of: (row) => row.multiplier,
+    first: true,
+    height: 0.6,
+  },
+  chip: {
+    name: word("thickest chip"),
+    unit: lengthUnit,
+    digits: (v) => length(v, 3),
+    of: (row) => row.chip,
+    height: 0.6,
+  },
+  power: {
+    name: word("spindle power"),
+    unit: () => "W",
+    digits: (v) => fixed(v, 0),
+    of: (row) => row.torque * row.rpm * (Math.PI / 30),
+    height: 0.6,
+  },
   sound: { name: word("sound over the softest"), unit: () => "dB", digits: (v) => fixed(v, 0), height: 0.6 },
 };
 const ORDER: Quantity[] = ["force", "depth", "multiplier", "chip", "power", "sound"];
@@ -67,6 +102,7 @@ export class Lanes {
   constructor(
     private readonly canvas: HTMLCanvasElement,
     slider: HTMLElement,
+    private readonly rowAt: (time: number) => Row | undefined,
   ) {
     slider.addEventListener("pointermove", ({ offsetX }) => this.point((offsetX / slider.clientWidth) * this.duration));
     slider.addEventListener("pointerleave", () => this.point(undefined));
@@ -96,12 +132,9 @@ export class Lanes {
     const had = this.shown().length;
     for (const row of rows) {
       const { time, duration } = row;
-      this.bins.force.add(time, duration, row.peakForce);
+      for (const name of ORDER) this.bins[name].add(time, duration, LANES[name].of?.(row) ?? 0);
       this.low.add(time, duration, row.peakLow);
       this.high.add(time, duration, row.peakHigh);
-      this.bins.depth.add(time, duration, row.depth);
-      this.bins.chip.add(time, duration, row.chip);
-      this.bins.power.add(time, duration, row.torque * row.rpm * (Math.PI / 30));
       if (row.chipVerdict) this.events.push({ time, what: row.chipVerdict });
     }
     if (this.shown().length !== had) this.lay();
@@ -279,8 +312,10 @@ export class Lanes {
     const paper = this.ink("--card");
     label(c, end, 3, top + 10, this.ink("--quiet"), paper);
     const named = c.measureText(end).width + 8;
-    const value = bins.at(at);
-    if (Number.isNaN(value)) return;
+    // That of the row itself, as beside the picture: a bin has the largest of its rows.
+    const row = this.rowAt(at);
+    const value = (row && LANES[name].of?.(row)) ?? bins.at(at);
+    if (!(value > 0)) return;
     const now = `${digits(value)} ${unit()}`.trim();
     const x = (at / this.duration) * width + 6;
     const wide = c.measureText(now).width;
