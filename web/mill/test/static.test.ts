@@ -306,15 +306,14 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
       for (const tab of ["force", "one-turn", "spectrum", "engagement", "sound"]) {
         await page.click(`#tab-${tab}`);
         await page.waitForSelector("#plot-panel canvas");
-        await page.waitForTimeout(150);
-        await picture(`plot-${tab}`);
-        expect(
-          await page.evaluate(() => {
+        const colours = () =>
+          page.evaluate(() => {
             const canvas = document.querySelector<HTMLCanvasElement>("#plot-panel canvas")!;
             const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
             return new Set(data).size;
-          }),
-        ).toBeGreaterThan(4);
+          });
+        await expect.poll(colours, { timeout: PATIENCE_MS }).toBeGreaterThan(4);
+        await picture(`plot-${tab}`);
       }
       await page.focus("#tab-sound");
       await page.keyboard.press("ArrowRight");
@@ -324,9 +323,10 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
         page.evaluate(() => {
           const canvas = document.querySelector<HTMLCanvasElement>("#plot-panel canvas")!;
           const { data } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
-          return data.reduce((count, _, n) => count + Number(n % 4 === 0 && data[n]! > 220 && data[n + 2]! > 220), 0);
+          const isWhite = (n: number) => [0, 1, 2, 3].every((k) => data[n + k]! > 220);
+          return data.reduce((count, _, n) => count + Number(n % 4 === 0 && isWhite(n)), 0);
         });
-      expect(await white()).toBe(0);
+      await expect.poll(white, { timeout: PATIENCE_MS }).toBe(0);
       await page.emulateMedia({ colorScheme: "dark" });
       await expect.poll(white, { timeout: PATIENCE_MS }).toBeGreaterThan(20);
       await page.emulateMedia({ colorScheme: "light" });

@@ -80,7 +80,11 @@ export class Program {
       else return;
       event.preventDefault();
     });
-    new ResizeObserver(() => this.draw()).observe(this.list);
+    // A list that was hidden begins at its top again.
+    new ResizeObserver(() => {
+      this.follow();
+      this.draw();
+    }).observe(this.list);
   }
 
   begin(): void {
@@ -119,8 +123,11 @@ export class Program {
   show(line: number): void {
     if (line === this.now) return;
     this.now = line;
-    if (performance.now() > this.readsUntil) this.reveal(line);
+    this.follow();
     this.draw();
+  }
+  private follow(): void {
+    if (performance.now() > this.readsUntil) this.reveal(this.now);
   }
 
   // Marks a line, and shows it; 0: none.
