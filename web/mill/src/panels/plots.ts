@@ -145,6 +145,8 @@ export class Plots {
       this.dirty = true;
     }).observe(this.panel);
     onUnit(() => this.choose(this.open));
+    // The page may draw no picture for a while.
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.update());
     this.choose(this.open);
   }
 
