@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 
-export const clamp = (v: number, low: number, high: number) => Math.min(Math.max(v, low), high);
+export { clamp } from "@tribo/ui/clamp";
 export const largest = (list: number[]) => list.reduce((m, v) => Math.max(m, v), 0);
 
 /** Rounds to three significant digits, without exponents for numbers of usual size. */

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // <tribo-touch>: an image that yields under fingers and sounds when rubbed. docs/touch.md has the list of
 // attributes, properties, events, slots, parts and CSS properties; custom-elements.json has it for tools.
+import { clamp } from "@tribo/ui/clamp";
 import { wordsOf } from "@tribo/ui/dom";
 import { AttributeElement } from "./attributes.js";
 import { Voice, warmSound } from "./audio.js";
 import { engine, type Sheet } from "./engine.js";
 import { Finger, kFullForceN, measuredPressure, type FingerReport } from "./fingers.js";
 import { animate, stop, whenIdle } from "./frames.js";
+import { keyFinger, type KeyFinger } from "./keyboard.js";
 import { smallRelief, stiffnessLevels, stiffnessPalette } from "./maps.js";
 import { parseMaterial, type Material } from "./material.js";
 import { Relief } from "./relief.js";
@@ -43,7 +45,8 @@ const kNodes = 512;
 // As printed, equations 1 and 2 act on the whole image at every frame.
 const kPublishedNodes = 256;
 const kMostPixelRatio = 2;
-const kKeyboardStep = 0.02;
+// Number of the finger of the keyboard, beside those of pointers.
+const kKeyFinger = -1;
 const kNearPixels = 200;
 
 export class TriboTouch extends AttributeElement {
@@ -73,7 +76,7 @@ export class TriboTouch extends AttributeElement {
   #vibration = new Vibration();
   #fingers = new Map<number, Finger>();
   #types = new Map<number, string>();
-  #probe = { u: 0.5, v: 0.5, down: false, firmness: 1 };
+  #keys: KeyFinger | undefined;
   #visible = false;
   #posterDismissed = false;
   #attempt = 0;
@@ -101,7 +104,7 @@ export class TriboTouch extends AttributeElement {
 
   connectedCallback(): void {
     this.#parts ??= this.#build();
-    this.#inView = new IntersectionObserver((entries) => this.#seen(entries[entries.length - 1]!.isIntersecting), {
+    this.#inView = new IntersectionObserver((entries) => this.#seen(entries.at(-1)!.isIntersecting), {
       rootMargin: `${kNearPixels}px`,
     });
     this.#inView.observe(this);
@@ -117,9 +120,9 @@ export class TriboTouch extends AttributeElement {
     const box = this.getBoundingClientRect();
     return (
       box.width > 0 &&
-      box.top < window.innerHeight + kNearPixels &&
+      box.top < innerHeight + kNearPixels &&
       box.bottom > -kNearPixels &&
-      box.left < window.innerWidth + kNearPixels &&
+      box.left < innerWidth + kNearPixels &&
       box.right > -kNearPixels
     );
   }
@@ -164,11 +167,24 @@ export class TriboTouch extends AttributeElement {
     surface.addEventListener("pointercancel", (event) => this.#lift(event.pointerId, event.timeStamp));
     surface.addEventListener("lostpointercapture", (event) => this.#lift(event.pointerId, event.timeStamp));
     surface.addEventListener("contextmenu", (event) => this.#fingers.size > 0 && event.preventDefault());
-    surface.addEventListener("keydown", (event) => this.#key(event));
-    surface.addEventListener("focus", () => this.#showProbe(surface.matches(":focus-visible")));
+    const keys = keyFinger(
+      parts,
+      (u, v, firmness) => this.#touch(kKeyFinger, "keyboard", this.#keyReport(u, v), firmness),
+      (finger, u, v) => finger.move(this.#keyReport(u, v)),
+      () => this.#lift(kKeyFinger, performance.now()),
+    );
+    this.#keys = keys;
+    const show = (shown: boolean) => keys.show(shown && this.#state === "ready");
+    surface.addEventListener("keydown", (event) => {
+      if (this.#picture === undefined || this.disabled || event.ctrlKey || event.altKey || event.metaKey) return;
+      if (!keys.key(event)) return;
+      event.preventDefault();
+      show(true);
+    });
+    surface.addEventListener("focus", () => show(surface.matches(":focus-visible")));
     surface.addEventListener("blur", () => {
-      this.#keyUp();
-      this.#showProbe(false);
+      keys.lift();
+      show(false);
     });
     return parts;
   }
@@ -361,7 +377,7 @@ export class TriboTouch extends AttributeElement {
   #resize(): void {
     if (this.#picture === undefined || this.#parts === undefined) return;
     const { canvas, surface } = this.#parts;
-    const ratio = Math.min(kMostPixelRatio, window.devicePixelRatio || 1);
+    const ratio = Math.min(kMostPixelRatio, devicePixelRatio || 1);
     const width = Math.round(surface.clientWidth * ratio);
     const height = Math.round((width * this.#picture.nodesY) / this.#picture.nodesX);
     if (width > 0 && (canvas.width !== width || canvas.height !== height)) {
@@ -389,7 +405,7 @@ export class TriboTouch extends AttributeElement {
     const picture = this.#picture;
     if (sheet === undefined || picture === undefined || this.#context === null || this.#renderer!.lost) return false;
     const contacts = [...this.#fingers.values()].map((finger) => finger.contact(now));
-    const hairy = (picture.finish?.pile ?? 0) > 0;
+    const hairy = !!picture.finish?.pile;
     sheet.press(contacts, this.asPublished, this.getAttribute("contact") === "point", hairy);
     const moving = sheet.step(seconds, this.asPublished);
     const changes = sheet.changes();
@@ -397,7 +413,7 @@ export class TriboTouch extends AttributeElement {
     const leans = sheet.leans();
     if (leans !== null) this.#renderer!.lean(picture, leans);
     if (this.#context.canvas.width > 0) {
-      const still = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+      const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
       const fullMm = kFullForceN / this.stiffness;
       if (this.#renderer!.draw(picture, this.#context, !still, fullMm)) this.#parts!.surface.classList.add("drawn");
     }
@@ -418,7 +434,7 @@ export class TriboTouch extends AttributeElement {
       [u, v] = this.#place(finger);
     }
     const inside = u >= 0 && u <= 1 && v >= 0 && v <= 1;
-    this.#voice?.target(inside ? speed : 0, force, Math.min(1, Math.max(-1, 2 * u - 1)), this.#relief?.gain(u, v) ?? 1);
+    this.#voice?.target(inside ? speed : 0, force, clamp(2 * u - 1, -1, 1), this.#relief?.gain(u, v) ?? 1);
     if (speed > 0 && this.getAttribute("haptics") !== "off") this.#vibration.rub(speed, force, seconds, now);
   }
 
@@ -461,7 +477,19 @@ export class TriboTouch extends AttributeElement {
     };
   }
 
-  #touch(id: number, type: string, report: FingerReport, firmness = 1): void {
+  #keyReport(u: number, v: number): FingerReport {
+    const { nodesX, nodesY, spacingMm } = this.#picture!;
+    return {
+      x: u * nodesX * spacingMm,
+      y: v * nodesY * spacingMm,
+      width: 0,
+      height: 0,
+      pressure: Number.NaN,
+      time: performance.now() / 1000,
+    };
+  }
+
+  #touch(id: number, type: string, report: FingerReport, firmness = 1): Finger {
     const finger = new Finger(report);
     finger.firmness = firmness;
     this.#fingers.set(id, finger);
@@ -471,6 +499,7 @@ export class TriboTouch extends AttributeElement {
     this.dismissPoster();
     this.#tell("contact-start", id, finger, report.time * 1000);
     animate(this);
+    return finger;
   }
 
   #down(event: PointerEvent): void {
@@ -480,7 +509,7 @@ export class TriboTouch extends AttributeElement {
     } catch {
       // The pointer is already gone, or a script made it.
     }
-    this.#showProbe(false);
+    this.#keys!.show(false);
     this.#touch(event.pointerId, event.pointerType, this.#report(event));
   }
 
@@ -504,79 +533,8 @@ export class TriboTouch extends AttributeElement {
   }
 
   #liftAll(): void {
-    this.#keyUp();
-    const ids = [...this.#fingers.keys()];
-    for (const id of ids) this.#lift(id, performance.now());
-  }
-
-  // The keyboard finger, number -1 ------------------------------------------------------------------------------
-
-  #showProbe(shown: boolean): void {
-    const { probe } = this.#parts!;
-    probe.hidden = !shown || this.#state !== "ready";
-    probe.style.left = `${100 * this.#probe.u}%`;
-    probe.style.top = `${100 * this.#probe.v}%`;
-    probe.classList.toggle("down", this.#probe.down);
-  }
-
-  #probeReport(): FingerReport {
-    const { nodesX, nodesY, spacingMm } = this.#picture!;
-    return {
-      x: this.#probe.u * nodesX * spacingMm,
-      y: this.#probe.v * nodesY * spacingMm,
-      width: 0,
-      height: 0,
-      pressure: Number.NaN,
-      time: performance.now() / 1000,
-    };
-  }
-
-  #keyUp(): void {
-    if (!this.#probe.down) return;
-    this.#probe.down = false;
-    this.#lift(-1, performance.now());
-    this.#say("lifted");
-  }
-
-  #say(text: string): void {
-    this.#parts!.status.textContent = text;
-  }
-
-  #key(event: KeyboardEvent): void {
-    if (this.#picture === undefined || this.disabled || event.ctrlKey || event.altKey || event.metaKey) return;
-    const probe = this.#probe;
-    const moves: Record<string, [number, number]> = {
-      ArrowLeft: [-kKeyboardStep, 0],
-      ArrowRight: [kKeyboardStep, 0],
-      ArrowUp: [0, -kKeyboardStep],
-      ArrowDown: [0, kKeyboardStep],
-    };
-    const move = moves[event.key];
-    if (move !== undefined) {
-      probe.u = Math.min(1, Math.max(0, probe.u + move[0]));
-      probe.v = Math.min(1, Math.max(0, probe.v + move[1]));
-      this.#fingers.get(-1)?.move(this.#probeReport());
-    } else if (event.key === " " || event.key === "Enter") {
-      if (event.repeat) return event.preventDefault();
-      if (probe.down) this.#keyUp();
-      else {
-        probe.down = true;
-        this.#touch(-1, "keyboard", this.#probeReport(), probe.firmness);
-        this.#say("pressed");
-      }
-    } else if (event.key === "+" || event.key === "-") {
-      probe.firmness = Math.min(3, Math.max(0.25, probe.firmness * (event.key === "+" ? 1.25 : 0.8)));
-      const finger = this.#fingers.get(-1);
-      if (finger !== undefined) finger.firmness = probe.firmness;
-      this.#say(`force ${(2 * probe.firmness).toFixed(1)} newton`);
-    } else if (event.key === "Escape" && probe.down) {
-      this.#keyUp();
-    } else {
-      return;
-    }
-    event.preventDefault();
-    this.#showProbe(true);
-    animate(this);
+    this.#keys?.lift();
+    for (const id of this.#fingers.keys()) this.#lift(id, performance.now());
   }
 
   // Methods -----------------------------------------------------------------------------------------------------

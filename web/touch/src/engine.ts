@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // touch.wasm in the page: one instance for all elements, loaded when the first element needs it.
+import { clamp } from "@tribo/ui/clamp";
 import type { TouchExports } from "@tribo/wasm/exports";
 import { bytesAt, doublesAt, floatsAt, lend } from "@tribo/wasm/memory";
 import { compile, instantiate, type Compiled } from "@tribo/wasm/module";
@@ -116,8 +117,8 @@ export class Sheet {
   }
 
   depthAt(x: number, y: number): number {
-    const i = Math.min(this.width - 1, Math.max(0, Math.floor(x / this.spacingMm)));
-    const j = Math.min(this.height - 1, Math.max(0, Math.floor(y / this.spacingMm)));
+    const i = clamp(Math.floor(x / this.spacingMm), 0, this.width - 1);
+    const j = clamp(Math.floor(y / this.spacingMm), 0, this.height - 1);
     return -(this.#values(i, j, 1).values[0] ?? 0);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Converts pointer reports of a screen to input for a sheet and a voice: an ellipse, a force, a speed.
+import { clamp } from "@tribo/ui/clamp";
 import type { Contact } from "./engine.js";
 
 /** One report about one finger, in mm of the image and seconds. */
@@ -60,8 +61,7 @@ export class Finger {
     this.x = report.x;
     this.y = report.y;
     this.#pressure = report.pressure;
-    const radius = (size: number) =>
-      size > 0 ? Math.min(kMostRadiusMm, Math.max(kLeastRadiusMm, size / 2)) : kDefaultRadiusMm;
+    const radius = (size: number) => (size > 0 ? clamp(size / 2, kLeastRadiusMm, kMostRadiusMm) : kDefaultRadiusMm);
     this.#halfWidth = radius(report.width);
     this.#halfHeight = radius(report.height);
     const last = this.#trail.at(-1);
@@ -97,7 +97,7 @@ export class Finger {
     const last = this.#trail.at(-1)!;
     const ahead = this.#ahead ?? last;
     // A report is some milliseconds old when it is drawn, but the dent should be under the finger.
-    const part = Math.min(1, Math.max(0, (now - last.time) / (ahead.time - last.time || 1)));
+    const part = clamp((now - last.time) / (ahead.time - last.time || 1), 0, 1);
     const x = last.x + part * (ahead.x - last.x);
     const y = last.y + part * (ahead.y - last.y);
     const before = this.#drawn ?? { x, y };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One animation loop for all elements. It runs only while one of them moves.
 
+import { clamp } from "@tribo/ui/clamp";
+
 export interface Animated {
   /** Draws the frame at `now` (seconds). Returns false when nothing moves any more. */
   frame(now: number, seconds: number): boolean;
@@ -18,7 +20,7 @@ function tick(milliseconds: number): void {
   const before = [...running];
   for (const [element, last] of before) {
     if (!running.has(element)) continue;
-    const seconds = last < 0 ? 1 / 60 : Math.min(kLongestFrameS, Math.max(0, now - last));
+    const seconds = last < 0 ? 1 / 60 : clamp(now - last, 0, kLongestFrameS);
     running.set(element, now);
     if (!element.frame(now, seconds)) running.delete(element);
   }

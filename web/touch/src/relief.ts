@@ -2,6 +2,8 @@
 // Relief estimated from an image: at a large change of brightness the finger meets an edge. There the friction sound
 // is louder, so that a visible pattern can be heard.
 
+import { clamp } from "@tribo/ui/clamp";
+
 const kSide = 128;
 
 /** Returns the image at another size. */
@@ -47,8 +49,8 @@ export class Relief {
 
   /** Factor on the sound level at a position (0 to 1 from the top left): 1 on average, within 6 dB. */
   gain(u: number, v: number): number {
-    const x = Math.min(this.#width - 1, Math.max(0, Math.floor(u * this.#width)));
-    const y = Math.min(this.#height - 1, Math.max(0, Math.floor(v * this.#height)));
-    return Math.min(2, Math.max(0.5, Math.sqrt(this.#steepness[y * this.#width + x]!)));
+    const x = clamp(Math.floor(u * this.#width), 0, this.#width - 1);
+    const y = clamp(Math.floor(v * this.#height), 0, this.#height - 1);
+    return clamp(Math.sqrt(this.#steepness[y * this.#width + x]!), 0.5, 2);
   }
 }
