@@ -68,15 +68,18 @@ double radical_inverse(unsigned n) {
     return share;
 }
 
-// The direction of a place in the square, -1 to 1 along both sides (Engelhardt and Dachsbacher 2008).
-Vec3 unfolded(double x, double y) {
-    const double z = 1 - std::abs(x) - std::abs(y);
-    if (z < 0) {
-        const double folded = (1 - std::abs(y)) * (x < 0 ? -1 : 1);
-        y = (1 - std::abs(x)) * (y < 0 ? -1 : 1);
-        x = folded;
+// Folds the corners of the square to its middle, or back: the lower half of the octahedron (Engelhardt and
+// Dachsbacher 2008).
+struct Square {
+    double x, y;  // -1 to 1
+    Square folded() const {
+        return {(1 - std::abs(y)) * (x < 0 ? -1 : 1), (1 - std::abs(x)) * (y < 0 ? -1 : 1)};
     }
-    return normalized(Vec3{x, y, z});
+};
+Vec3 direction_of(Square s) {
+    const double z = 1 - std::abs(s.x) - std::abs(s.y);
+    if (z < 0) s = s.folded();
+    return normalized(Vec3{s.x, s.y, z});
 }
 
 // A Phong lobe of 2 / roughness^4 - 2 about the normal has a quarter of that exponent about the mirrored
@@ -100,7 +103,7 @@ Studio::Sky::Sky(double exponent)
     }
     for (int row = 0; row < kSide; ++row) {
         for (int k = 0; k < kSide; ++k) {
-            const Vec3 axis = unfolded(2.0 * k / (kSide - 1) - 1, 2.0 * row / (kSide - 1) - 1),
+            const Vec3 axis = direction_of({2.0 * k / (kSide - 1) - 1, 2.0 * row / (kSide - 1) - 1}),
                        right = normalized(cross(Vec3{0, 0, 1}, axis), {1, 0, 0}), up = cross(axis, right);
             double sum = 0;
             for (const Vec3 ray : rays) sum += room.brightness(ray.x * right + ray.y * up + ray.z * axis);
@@ -111,13 +114,9 @@ Studio::Sky::Sky(double exponent)
 
 float Studio::Sky::at(Vec3 d) const {
     const double scale = 1 / (std::abs(d.x) + std::abs(d.y) + std::abs(d.z));
-    double x = d.x * scale, y = d.y * scale;
-    if (d.z < 0) {
-        const double folded = (1 - std::abs(y)) * (x < 0 ? -1 : 1);
-        y = (1 - std::abs(x)) * (y < 0 ? -1 : 1);
-        x = folded;
-    }
-    const double across = 0.5 * (x + 1) * (kSide - 1), along = 0.5 * (y + 1) * (kSide - 1);
+    Square s{d.x * scale, d.y * scale};
+    if (d.z < 0) s = s.folded();
+    const double across = 0.5 * (s.x + 1) * (kSide - 1), along = 0.5 * (s.y + 1) * (kSide - 1);
     const int k = std::clamp(static_cast<int>(across), 0, kSide - 2),
               row = std::clamp(static_cast<int>(along), 0, kSide - 2);
     const auto u = static_cast<float>(across - k), v = static_cast<float>(along - row);
