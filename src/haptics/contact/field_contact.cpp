@@ -29,7 +29,7 @@ constexpr double kShorter = 0.25;
 constexpr double kTouches = 0.01;
 constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
 // It is so many steps high at least: the next ones end at the same ball.
-constexpr double kHigh = 2;
+constexpr double kStepsHigh = 2;
 // In flight, contact is made where the free ball is smaller than this share of the way to go, and of a ball's
 // radius.
 constexpr double kNear = 0.02, kNearBall = 0.1;
@@ -513,7 +513,7 @@ bool FieldContact::tie(const Place& to) {
     if (distance(to.proxy, anchor_.at) <= (1 + kTouches) * anchor_.radius) return true;
     Vec3 up = up_from(to);
     const double step = distance(to.proxy, at_.proxy);
-    double height = std::clamp(std::max(kHigh * step, height_), kLowest, kHighest);
+    double height = std::clamp(std::max(kStepsHigh * step, height_), kLowest, kHighest);
     for (int tries = 0; tries < 3 && budget(2); ++tries) {
         const Vec3 at = to.proxy + height * up;
         const Anchor a{at, clearance_mm(at, height)};
