@@ -329,10 +329,19 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
           return most;
         });
       const inLight = await brightness();
+      const dark = () => expect.poll(brightness, { timeout: 15_000 }).toBeGreaterThan(inLight);
+      const light = () => expect.poll(brightness, { timeout: 15_000 }).toBe(inLight);
       await page.selectOption("#theme", "dark");
-      await expect.poll(brightness, { timeout: 15_000 }).not.toBe(inLight);
+      await dark();
       await page.selectOption("#theme", "light");
-      await expect.poll(brightness, { timeout: 15_000 }).toBe(inLight);
+      await light();
+      // And that of the device, where the page has none of its own.
+      await page.selectOption("#theme", "");
+      await page.emulateMedia({ colorScheme: "dark" });
+      await dark();
+      await page.emulateMedia({ colorScheme: "light" });
+      await light();
+      await page.selectOption("#theme", "light");
       await page.click("#show-plots");
     },
     PATIENCE_MS,
