@@ -329,18 +329,17 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
           return most;
         });
       const inLight = await brightness();
-      const dark = () => expect.poll(brightness, { timeout: 15_000 }).toBeGreaterThan(inLight);
-      const light = () => expect.poll(brightness, { timeout: 15_000 }).toBe(inLight);
+      const wait = { timeout: 15_000 };
       await page.selectOption("#theme", "dark");
-      await dark();
+      await expect.poll(brightness, wait).toBeGreaterThan(inLight);
       await page.selectOption("#theme", "light");
-      await light();
+      await expect.poll(brightness, wait).toBe(inLight);
       // And that of the device, where the page has none of its own.
       await page.selectOption("#theme", "");
       await page.emulateMedia({ colorScheme: "dark" });
-      await dark();
+      await expect.poll(brightness, wait).toBeGreaterThan(inLight);
       await page.emulateMedia({ colorScheme: "light" });
-      await light();
+      await expect.poll(brightness, wait).toBe(inLight);
       await page.selectOption("#theme", "light");
       await page.click("#show-plots");
     },
