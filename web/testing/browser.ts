@@ -8,7 +8,7 @@ const CHROMIUM = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/go
 );
 
 export const hasBrowser = CHROMIUM !== undefined;
-export const PATIENCE_MS = 60_000;
+export const PATIENCE_MS = 120_000;
 
 const QUIET = ["--no-sandbox", "--no-first-run", "--disable-background-networking", "--disable-component-update"];
 /** Graphics in software, sound without a gesture, the garbage collector within reach. */

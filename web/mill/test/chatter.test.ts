@@ -90,10 +90,8 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("a cut t
       });
       await until("stable", "chatter-verdict");
       expect(Number(await page.textContent("#chatter-number"))).toBeLessThan(1);
-      await page.waitForTimeout(300);
-      const seen = await chartPixels();
-      expect(seen.stable).toBeGreaterThan(30);
-      expect(seen.chatters).toBe(0);
+      await expect.poll(async () => (await chartPixels()).stable, { timeout: PATIENCE_MS }).toBeGreaterThan(30);
+      expect((await chartPixels()).chatters).toBe(0);
       await picture("chatter_stable");
     },
     PATIENCE_MS,
