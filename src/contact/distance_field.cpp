@@ -19,6 +19,10 @@ constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance. A bend is too great from this share of the bend of a
 // sphere on.
 constexpr double kBendStep = 1e-3, kTooBent = 1.01;
+// A side that is this share of a way behind does not come near over the way.
+constexpr double kBehind = 0.1;
+// Bends along an edge are measured over steps of this share along it, and of this length, mm.
+constexpr double kAlong = 0.9, kLeastAlong = 1e-3;
 
 // For places where the planes do not agree (normals of swept edges jump): follows the surface as long as the
 // distance falls.
@@ -55,46 +59,46 @@ Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
     return {s, q, {}, true};
 }
 
-// The foot point where the sides that touch `on_mm`, a point of the surface, hold the point. The last step,
-// from `on_mm` to `foot_mm`, leaves the surface by its square over the radius of the bend only.
+// The foot point where the sides that touch it, or `on_mm`, a point of the surface, hold the point. The last
+// step, from `on_mm` to `foot_mm`, leaves the surface by its square over the radius of the bend only.
 Foot foot_at(Vec3 foot_mm, Vec3 on_mm, Vec3 point_mm, const HalfSpaces& sides) {
     HalfSpaces touching;
     for (int i = 0; i < sides.count; ++i) {
         const HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
-        if (side.above(on_mm) > -kOnSurface) touching.put(side, kAlike);
+        if (std::max(side.above(on_mm), side.above(foot_mm)) > -kOnSurface) touching.put(side, kAlike);
     }
     const double way = distance(point_mm, foot_mm);
     const std::uint32_t piece = touching.count > 0 ? touching.side[0].piece : 0;
     return {{way, (point_mm - foot_mm) / way, piece}, foot_mm, touching, true};
 }
 
-// Along an edge that bends, each step of the search is one share of the step before. Returns the sum of this
-// step and all that would follow (Aitken 1926), or the step itself where it does not go on like the last one.
-Vec3 all_steps(Vec3 step, Vec3 last) {
-    constexpr double kLeastShare = 0.05, kMostShare = 0.8, kAside = 0.1;
-    const double square = squared_length(last);
-    if (square == 0) return step;
-    const double share = dot(step, last) / square;
-    const bool goes_on = share > kLeastShare && share < kMostShare &&
-                         squared_length(step - share * last) < kAside * kAside * squared_length(step);
-    return goes_on ? step / (1 - share) : step;
-}
-
 // Until the pieces in `sides` have led to a place that is not on the surface, the field is not asked for
-// others.
+// others. Along an edge each step is Newton's, with the bend of the sides over the step before (a secant).
 Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm,
                HalfSpaces sides) {
     Vec3 q = start_mm;
     bool ask = sides.count == 0;
-    bool there = !ask;  // q is the nearest point of all sides, not a point on the way to it
-    Vec3 last;
+    bool there = !ask;      // q is the nearest point of all sides, not a point on the way to it
+    HalfSpaces::Edge edge;  // the last step's, if that was along one
+    double along_mm = 0;    // of it
+    double moved_mm = 0;    // since the start
     for (int n = 0; n < kMostRounds; ++n) {
         double above_mm = -kAnyStep;  // of the intersection of all sides
         for (int i = 0; i < sides.count; ++i) {
-            HalfSpace& side = sides.side[static_cast<std::size_t>(i)];
-            const SurfaceSample t = field.sample_piece(side.piece, q);
-            if (t.piece == side.piece && dot(t.normal, side.normal) > kAlike)
-                side = {t.normal, dot(t.normal, q) - t.distance_mm, t.piece};
+            const auto index = static_cast<std::size_t>(i);
+            HalfSpace& side = sides.side[index];
+            // A side that was far behind the place still is.
+            if (n == 0 || side.above(q) >= -kBehind * moved_mm) {
+                const SurfaceSample t = field.sample_piece(side.piece, q);
+                if (t.piece == side.piece && dot(t.normal, side.normal) > kAlike) {
+                    if (along_mm != 0 && (index == edge.sides[0] || index == edge.sides[1])) {
+                        side.bend = dot(t.normal - side.normal, edge.along) / along_mm;
+                        side.beside = sides.side[edge.sides[index == edge.sides[0] ? 1 : 0]].piece;
+                    }
+                    side.normal = t.normal;
+                    side.offset = dot(t.normal, q) - t.distance_mm;
+                }
+            }
             above_mm = std::max(above_mm, side.above(q));
         }
         const auto is_still = [&](Vec3 next) {
@@ -118,11 +122,17 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             }
             ask = true;
         }
-        const Vec3 way = next - q, step = all_steps(way, last);
+        edge = sides.edge_at(next);
+        const bool on_edge = squared_length(edge.along) > 0;
+        const Vec3 step = (on_edge ? sides.nearest_on_bend(point_mm, edge, next, q) : next) - q;
         const double size = length(step);
         there = size <= longest_mm;
+        const double step_mm = std::min(size, longest_mm);
+        moved_mm += step_mm;
         q += there ? step : (longest_mm / size) * step;
-        last = way == step ? way : Vec3{};
+        // A short step tells of the errors of the normals, one to the edge nothing of the bend along it.
+        along_mm = on_edge ? dot(step, edge.along) * (step_mm / size) : 0;
+        if (std::abs(along_mm) < std::max(kAlong * step_mm, kLeastAlong)) along_mm = 0;
     }
     return {{0, {0, 0, 1}, 0}, q, {}};
 }

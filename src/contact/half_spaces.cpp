@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contact/half_spaces.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace tribo::contact {
@@ -74,6 +75,36 @@ Vec3 HalfSpaces::nearest(Vec3 y) const {
     if (least < std::numeric_limits<double>::infinity()) return best;
     const HalfSpace& last = side[static_cast<std::size_t>(count - 1)];
     return y - last.above(y) * last.normal;
+}
+
+HalfSpaces::Edge HalfSpaces::edge_at(Vec3 at) const {
+    Edge edge;
+    std::size_t holding = 0;
+    for (std::size_t n = 0; n < static_cast<std::size_t>(count); ++n) {
+        if (std::abs(side[n].above(at)) > kOnBorder) continue;
+        if (holding == edge.sides.size()) return {};
+        edge.sides[holding++] = n;
+    }
+    if (holding < edge.sides.size()) return {};
+    const Vec3 along = cross(side[edge.sides[0]].normal, side[edge.sides[1]].normal);
+    if (squared_length(along) < kParallel) return {};
+    edge.along = normalized(along);
+    return edge;
+}
+
+// At the way s along the line the edge is at s^2 aside from it, so that it is on both sides: there the
+// distance to y has no rate by s where s (1 + 2 off aside) is the way to the nearest point on the line.
+Vec3 HalfSpaces::nearest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen) const {
+    constexpr double kLeastRest = 0.2;
+    const HalfSpace &a = side[edge.sides[0]], &b = side[edge.sides[1]];
+    const double c = dot(a.normal, b.normal), half = 0.5 / (1 - c * c), way = dot(edge.along, flat - seen),
+                 bend_a = a.beside == b.piece ? a.bend : 0, bend_b = b.beside == a.piece ? b.bend : 0;
+    const Vec3 aside = half * ((c * bend_b - bend_a) * a.normal + (c * bend_a - bend_b) * b.normal);
+    const Vec3 off = flat - way * edge.along - y;
+    const double rest = 1 + 2 * dot(off, aside);
+    if (rest < kLeastRest) return flat;
+    const double bent = way / rest;
+    return flat + (bent - way) * edge.along + bent * bent * aside;
 }
 
 HalfSpaces::Cone HalfSpaces::cone_to(Vec3 direction) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nearest point in the intersection of up to four half-spaces, and which of them hold it there.
+// Nearest point in the intersection of up to four half-spaces, and which of them hold it there. They are the
+// tangent planes of a body; where two of them meet, the edge bends as the body's sides do.
 #pragma once
 
 #include <array>
@@ -14,6 +15,10 @@ struct HalfSpace {
     Vec3 normal;  // unit
     double offset = 0;
     std::uint32_t piece = 0;
+    // Of the surface along its edge with the piece `beside`, 1/mm: positive where the body is convex; 0: not
+    // known.
+    double bend = 0;
+    std::uint32_t beside = 0;
 
     double above(Vec3 y) const { return dot(normal, y) - offset; }
 };
@@ -28,6 +33,16 @@ struct HalfSpaces {
     void put(const HalfSpace& h, double alike);
     // Returns the nearest point to y in all half-spaces; if their intersection is empty, in the last one.
     Vec3 nearest(Vec3 y) const;
+
+    // The line on which a point stands where just two sides hold it.
+    struct Edge {
+        Vec3 along;  // unit; zero where the point is not on such a line
+        std::array<std::size_t, 2> sides{};
+    };
+    Edge edge_at(Vec3 at) const;
+    // Returns the nearest point to y on an edge that bends, from `flat`, the nearest one on its line. The
+    // planes are tangents at `seen`. Returns `flat` where the edge bends about y nearly as a circle does.
+    Vec3 nearest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen) const;
 
     // A direction as a sum of one to three normals, each times a weight of 0 or more.
     struct Cone {

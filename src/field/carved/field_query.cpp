@@ -30,7 +30,7 @@ constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
 constexpr double kAround = 0.87, kBulge = 0.1;
 // A ball at a surface point is proven to be air by balls in the shapes that meet there, larger by the inverse
 // of this share.
-constexpr double kOfInnerBall = 2.0 / 3;
+constexpr double kOfInnerBall = 0.9;
 // Longest step of a search along the surface, in cells.
 constexpr double kLongestCells = 2;
 
@@ -432,6 +432,8 @@ std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint&
         const contact::Foot foot = below(sample_piece(hint.sides.side[0].piece, p), p);
         if (foot.found) return foot;
         start = foot.at_mm;
+    } else if (const auto edge = hint.sides.edge_at(start); squared_length(edge.along) > 0) {
+        start = hint.sides.nearest_on_bend(p, edge, start, hint.at_mm);
     }
     const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, hint.sides);
     if (foot.found && is_nearest(foot)) return foot;
