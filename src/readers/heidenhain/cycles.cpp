@@ -10,9 +10,10 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr std::array kLengths{1,   3,   4,   5,   6,   7,   8,   10,  14,  200, 201, 202, 203, 204, 205, 212,
-                              216, 217, 218, 219, 220, 221, 222, 223, 225, 226, 227, 228, 229, 230, 231, 232,
-                              233, 234, 235, 236, 237, 238, 239, 244, 256, 257, 258, 259, 334, 335, 338, 342,
+constexpr std::array kLengths{1,   3,   4,   5,   6,   7,   8,   10,  14,  200, 201, 202, 203,
+                              204, 205, 212, 216, 217, 218, 219, 220, 221, 222, 223, 225, 226,
+                              227, 228, 229, 230, 231, 232, 233, 234, 235, 236, 237, 238, 239,
+                              244, 249, 250, 251, 252, 256, 257, 258, 259, 334, 335, 338, 342,
                               344, 356, 357, 358, 359, 368, 369, 375, 379, 386, 424, 425, 571};
 constexpr std::array kFeeds{11, 12, 19, 206, 207, 208, 209, 253, 254, 385};
 
@@ -26,6 +27,7 @@ constexpr std::array kCycles{
     Needs{201, {200, 201, 206, 203}},
     Needs{202, {200, 201, 206, 203}},
     Needs{203, {200, 201, 206, 203}},
+    Needs{204, {200, 249, 250, 251, 252, 254, 203}},
     Needs{205, {200, 201, 206, 202, 203}},
     Needs{206, {200, 201, 206, 203}},
     Needs{207, {200, 201, 239, 203}},
@@ -256,6 +258,7 @@ Result<void> Interpreter::define_q_cycle(LineReader& in, int number) {
 
 Result<void> Interpreter::check_cycle(const Cycle& cycle) const {
     if (is_thread(cycle.number) || is_face(cycle.number)) return {};  // checked where they run
+    if (cycle.number == 204) return check_back_boring(cycle);
     const bool by_diameter = cycle.number == 240 && cycle.at(343) != 0;
     if (by_diameter ? cycle.at(344) == 0 : !(cycle.at(201) < 0)) {
         return path_.refuse(cycle.place,
@@ -371,6 +374,8 @@ Result<void> Interpreter::run_cycle(Place where) {
             return tap();
         case 208:
             return mill_bore();
+        case 204:
+            return bore_back();
         default:
             return bore();
     }

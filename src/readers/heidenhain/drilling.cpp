@@ -156,6 +156,55 @@ Result<void> Interpreter::bore() {
     return done;
 }
 
+Result<void> Interpreter::check_back_boring(const Cycle& cycle) const {
+    if (!(cycle.at(249) > 0) || !(cycle.at(250) > 0) || cycle.at(251) < 0 || cycle.at(252) < 0 ||
+        cycle.at(200) < 0) {
+        return path_.refuse(cycle.place, "Q200, Q249, Q250, Q251 or Q252 of cycle 204 is out of range",
+                            "write the depth of the counterbore and the thickness above 0, the others not "
+                            "below it");
+    }
+    const double direction = cycle.at(214);
+    if (direction != 1 && direction != 2 && direction != 3 && direction != 4) {
+        return path_.refuse(cycle.place, "cycle 204 has no direction to step aside",
+                            "write 1 (-X), 2 (-Y), 3 (+X) or 4 (+Y) for Q214");
+    }
+    for (const int feed : {253, 254}) {
+        if (cycle.at(feed) == kRapid || (feed == 253 && !(cycle.at(feed) > 0))) continue;
+        if (auto good = path_.in_range(kLimits.feed, cycle.at(feed), cycle.place); !good) return good;
+    }
+    return {};
+}
+
+// 204: through the hole aside of its middle with a spindle that stands, then upwards into the underside. The
+// length of the bar is that of its lower end, which lies Q252 below the edge.
+Result<void> Interpreter::bore_back() {
+    const double surface = cycle_.at(203), clearance = surface + cycle_.at(200);
+    const double underside = surface - cycle_.at(250) - cycle_.at(252);
+    const double positioning = cycle_feed(253).value_or(kRapid);
+    const int direction = static_cast<int>(cycle_.at(214));
+    const double way = direction <= 2 ? -cycle_.at(251) : cycle_.at(251);
+    const Vec3 middle = path_.tip();
+    const Vec3 aside = middle + (direction % 2 == 1 ? Vec3{way, 0, 0} : Vec3{0, way, 0});
+    if (path_.first(kBackBoring)) {
+        path_.warn(
+            cycle_.place.line,
+            "cycle 204 leads a boring bar through its hole with a spindle that stands: the cutter counts "
+            "as turning there, and touches the hole if it is wider than that");
+    }
+    if (auto done = go_to_height(clearance, kRapid); !done) return done;
+    if (auto done = go_to_place(aside.x, aside.y, positioning); !done) return done;
+    if (auto done = go_to_height(underside - cycle_.at(200), positioning); !done) return done;
+    if (auto done = go_to_place(middle.x, middle.y, positioning); !done) return done;
+    if (auto done = go_to_height(underside + cycle_.at(249), cycle_.at(254)); !done) return done;
+    if (auto done = path_.dwell(std::max(cycle_.at(255), 0.0), cycle_.place); !done) return done;
+    if (auto done = go_to_height(underside - cycle_.at(200), positioning); !done) return done;
+    if (auto done = go_to_place(aside.x, aside.y, positioning); !done) return done;
+    if (auto done = go_to_height(clearance, positioning); !done) return done;
+    if (auto done = go_to_place(middle.x, middle.y, positioning); !done) return done;
+    const double second = surface + cycle_.at(204);
+    return second > clearance ? go_to_height(second, kRapid) : Result<void>{};
+}
+
 // 206, 207 and 209: the thread's pitch and the speed make the feed; down and up again.
 Result<void> Interpreter::tap() {
     const double surface = cycle_.at(203), depth = -cycle_.at(201);

@@ -44,6 +44,7 @@ enum Note {
     kIgnoredCycle,
     kDatum,
     kDisengage,
+    kBackBoring,
     kCylinder,
     kDeltas,
     kSkipped,
@@ -225,6 +226,8 @@ class Interpreter {
     Result<void> drill();
     Result<void> peck_deep();
     Result<void> bore();
+    Result<void> check_back_boring(const Cycle& cycle) const;
+    Result<void> bore_back();
     Result<void> tap();
     Result<void> mill_bore();
     Result<void> drill_as_of_old();

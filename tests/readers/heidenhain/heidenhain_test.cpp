@@ -185,6 +185,38 @@ CYCL CALL POS X+5 Y+5 Z+3 FMAX
     EXPECT_EQ(reamed.moves[3].feed_mm_per_min, 100);
 }
 
+TEST(Heidenhain, BoresBackFromBelowInCycle204) {
+    // The edge lies 15 mm above the end of the bar. It starts 2 mm below the underside at Z-20, and cuts 5 mm
+    // upwards.
+    const std::string cycle =
+        "3 CYCL DEF 204 BACK BORING Q200=2 Q249=+5 Q250=20 Q251=3.5 Q252=15 Q253=750 Q254=200 Q255=1 Q203=+0 "
+        "Q204=50 Q336=0 ";
+    const struct {
+        const char* direction;
+        Vec3 aside;
+    } cases[] = {
+        {"Q214=1", {-3.5, 0, 0}}, {"Q214=2", {0, -3.5, 0}}, {"Q214=3", {3.5, 0, 0}}, {"Q214=4", {0, 3.5, 0}}};
+    for (const auto& c : cases) {
+        const motion::Program program =
+            conversational(after_start(cycle + c.direction + "\n4 L X+20 Y+30 R0 FMAX M99\n"));
+        EXPECT_TRUE(warns_of(program, 4, "a spindle that stands"));
+        EXPECT_EQ(heights(program), (std::vector<double>{10, 2, 2, -37, -37, -30, -37, -37, 2, 2, 50}))
+            << c.direction;
+        expect_near(program.moves[2].end.tip_mm, Vec3{20, 30, 2} + c.aside);
+        expect_near(program.moves[3].end.tip_mm, Vec3{20, 30, -37} + c.aside);
+        expect_near(program.moves[5].end.tip_mm, {20, 30, -30});
+        EXPECT_EQ(program.moves[3].feed_mm_per_min, 750);
+        EXPECT_EQ(program.moves[5].feed_mm_per_min, 200);
+        EXPECT_NEAR(feed_mm(program), 4 * 3.5 + 2 * 39 + 7 + 7, 1e-9);
+        expect_near(program.moves.back().end.tip_mm, {20, 30, 50});
+    }
+    EXPECT_NE(fault(after_start(cycle + "Q214=0\n")).find("no direction to step aside"), std::string::npos);
+    EXPECT_NE(
+        fault(after_start("3 CYCL DEF 204 Q200=2 Q249=-5 Q250=20 Q251=3 Q252=15 Q254=200 Q203=0 Q214=1\n"))
+            .find("Q249"),
+        std::string::npos);
+}
+
 TEST(Heidenhain, ShiftsAndTurnsTheDatum) {
     const motion::Program program = conversational(after_start(R"(3 CYCL DEF 7.0 DATUM SHIFT
 4 CYCL DEF 7.1 X+10
