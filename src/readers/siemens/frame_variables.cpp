@@ -10,6 +10,7 @@ namespace tribo::readers::siemens {
 namespace {
 
 constexpr std::string_view kAxes = "XYZ";
+constexpr Vec3 kNoScale{1, 1, 1};
 
 // The angles of ROT that turn a frame so.
 Vec3 angles_of(const motion::WorkFrame& frame) {
@@ -64,17 +65,23 @@ Result<void> Interpreter::assign_frame(const std::string& name, const std::vecto
                          "write $P_UIFR[1] for G54, $P_PFRAME, or TRANS and ROT");
     }
     if (index.size() <= parts) {
-        const auto found = frame_formula(in);
+        Vec3 scale{1, 1, 1};
+        const auto found = frame_formula(in, scale);
         if (!found) return std::unexpected(found.error());
+        if (name == "P_PFRAME") {
+            scale_ = scale;
+        } else if (scale != kNoScale) {
+            return in.refuse(at, "a scale or a mirror in the frame " + name.substr(0, 31) + " is not read",
+                             "write them in $P_PFRAME, or SCALE and MIRROR in blocks of their own");
+        }
         *frame = *found;
-        if (name == "P_PFRAME") scale_ = {1, 1, 1};
     } else if (auto done = set_frame_part(*frame, index, parts, at, in); !done) {
         return done;
     }
     return frame_variables_.contains(name) ? Result<void>{} : set_frame(line_number());
 }
 
-// [X,TR]=1: a shift; FI: a fine shift, taken as one; RT: an angle.
+// [X,TR]=1: a shift; FI: a fine shift, taken as one; RT: an angle; SC and MI of $P_PFRAME: scale and mirror.
 Result<void> Interpreter::set_frame_part(motion::WorkFrame& frame, const std::vector<Value>& index,
                                          std::size_t first, std::size_t at, Cursor& in) {
     const auto value = Formula(in, variables_, *this).number();
@@ -82,6 +89,16 @@ Result<void> Interpreter::set_frame_part(motion::WorkFrame& frame, const std::ve
     const std::string part = first + 1 < index.size() ? text_of(index[first + 1]) : "TR";
     const std::size_t axis = axis_of(text_of(index[first]));
     const bool is_neutral = *value == (part == "SC" ? 1.0 : 0.0);
+    if (axis <= 2 && &frame == &turned_ && (part == "SC" || part == "MI")) {
+        double& scale = scale_[static_cast<int>(axis)];
+        const double size = std::abs(scale);
+        if (part == "MI") {
+            scale = *value != 0 ? -size : size;
+            return {};
+        }
+        scale /= size;
+        return take_scale(scale, *value, place(static_cast<int>(at) + 1));
+    }
     if (axis > 2 || (part != "TR" && part != "FI" && part != "RT")) {
         if (is_neutral) return {};
         return in.refuse(at, "this part of a frame is not read", "write TR or RT of X, Y or Z");
@@ -98,8 +115,8 @@ Result<void> Interpreter::set_frame_part(motion::WorkFrame& frame, const std::ve
     return {};
 }
 
-// CTRANS(X,1,Y,2):CROT(Z,30):$P_UIFR[2]:F1
-Result<motion::WorkFrame> Interpreter::frame_formula(Cursor& in) {
+// CTRANS(X,1,Y,2):CROT(Z,30):$P_UIFR[2]:F1. `scale`: the factors of CSCALE and CMIRROR, within the frame.
+Result<motion::WorkFrame> Interpreter::frame_formula(Cursor& in, Vec3& scale) {
     motion::WorkFrame frame;
     for (;;) {
         in.skip_blanks();
@@ -110,11 +127,15 @@ Result<motion::WorkFrame> Interpreter::frame_formula(Cursor& in) {
         if (is_frame(name)) {
             const auto named = frame_value(name, at, in);
             if (!named) return named;
+            if (scale != kNoScale) {
+                return in.refuse(at, "a frame behind CSCALE or CMIRROR is not read", "write it before them");
+            }
             frame = joined(frame, *named);
+            if (name == "P_PFRAME") scale = scale_;
         } else {
             const auto call = call_at(in, name, at);
             if (!call) return std::unexpected(call.error());
-            const auto next = frame_by_call(frame, *call, at, in);
+            const auto next = frame_by_call(frame, scale, *call, at, in);
             if (!next) return next;
             frame = *next;
         }
@@ -139,9 +160,9 @@ Result<motion::WorkFrame> Interpreter::frame_value(const std::string& name, std:
     return *frame;
 }
 
-// `frame`, moved on by CTRANS(X,1,Y,2), CROT(Z,30) or CRPL(0,30).
-Result<motion::WorkFrame> Interpreter::frame_by_call(const motion::WorkFrame& frame, const Call& call,
-                                                     std::size_t at, Cursor& in) {
+// `frame`, moved on by CTRANS(X,1,Y,2), CROT(Z,30), CRPL(0,30), CSCALE(X,2) or CMIRROR(X).
+Result<motion::WorkFrame> Interpreter::frame_by_call(const motion::WorkFrame& frame, Vec3& scale,
+                                                     const Call& call, std::size_t at, Cursor& in) {
     const Place where = place(static_cast<int>(at) + 1);
     if (call.name == "CRPL") {  // about the normal of a plane: 0 that of the block, 1 to 3 G17 to G19
         const auto plane = static_cast<int>(std::clamp(call.at(0), 0.0, 3.0));
@@ -149,23 +170,38 @@ Result<motion::WorkFrame> Interpreter::frame_by_call(const motion::WorkFrame& fr
             return std::unexpected(good.error());
         Vec3 rad;
         rad[plane == 0 ? axes()[2] : 3 - plane] = call.at(1) * math::kRadPerDeg;
-        return turned_by(frame, rad);
+        return turned_within(frame, scale, rad, where);
     }
-    if (call.name != "CTRANS" && call.name != "CROT" && call.name != "CFINE") {
+    if (call.name == "CMIRROR") {
+        for (std::size_t i = 0; i < call.given.size(); ++i) {
+            const std::size_t k = axis_of(call.text(i));
+            if (k > 2) return in.refuse(at, "a frame along an unknown axis", "write X, Y and Z");
+            scale[static_cast<int>(k)] *= -1;
+        }
+        return frame;
+    }
+    if (call.name != "CTRANS" && call.name != "CROT" && call.name != "CFINE" && call.name != "CSCALE") {
         return in.refuse(at, "the frame '" + call.name.substr(0, 20) + "' is not read",
-                         "write CTRANS and CROT; SCALE and MIRROR in blocks of their own");
+                         "write CTRANS, CROT, CSCALE and CMIRROR");
     }
+    const bool scales = call.name == "CSCALE";
     const bool turns = call.name == "CROT";
     Vec3 values;
     for (std::size_t i = 0; i + 1 < call.given.size(); i += 2) {
         const std::size_t k = axis_of(call.text(i));
         if (k > 2) return in.refuse(at, "a frame along an unknown axis", "write X, Y and Z");
+        if (scales) {
+            if (auto done = take_scale(scale[static_cast<int>(k)], call.at(i + 1), where); !done)
+                return std::unexpected(done.error());
+            continue;
+        }
         values[static_cast<int>(k)] = call.at(i + 1);
         const Limit& limit = turns ? kLimits.rotary_angle : kLimits.coordinate;
         if (auto good = path_.in_range(limit, call.at(i + 1), where); !good)
             return std::unexpected(good.error());
     }
-    return turns ? turned_by(frame, values * math::kRadPerDeg) : frame.shifted(values * unit_mm_);
+    if (turns) return turned_within(frame, scale, values * math::kRadPerDeg, where);
+    return frame.shifted(Vec3{scale.x * values.x, scale.y * values.y, scale.z * values.z} * unit_mm_);
 }
 
 }  // namespace tribo::readers::siemens

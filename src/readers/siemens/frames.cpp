@@ -65,6 +65,31 @@ Result<void> Interpreter::set_frame(int line) {
     return {};
 }
 
+// Multiplies the scale of an axis by a factor.
+Result<void> Interpreter::take_scale(double& scale, double factor, Place where) const {
+    if (!kScale.contains(factor) || !kScale.contains(std::abs(scale * factor))) {
+        return path_.refuse(where, "the scale is out of range", "write a factor of 0.001 to 1000");
+    }
+    scale *= factor;
+    return {};
+}
+
+// `frame` turned about the axes of coordinates that are scaled and mirrored within it.
+Result<motion::WorkFrame> Interpreter::turned_within(const motion::WorkFrame& frame, const Vec3& scale,
+                                                     Vec3 rad, Place where) const {
+    // In mirrored coordinates a turn about an axis is one about its image, to the other side.
+    const double mirrored = scale.x * scale.y * scale.z < 0 ? -1 : 1;
+    for (int k = 0; k < 3; ++k) {
+        const int first = (k + 1) % 3, second = (k + 2) % 3;
+        if (rad[k] != 0 && std::abs(scale[first]) != std::abs(scale[second])) {
+            return path_.refuse(where, "a turn of a frame with different scales is not read",
+                                "write the same factor for the axes that turn");
+        }
+        rad[k] *= mirrored * (scale[k] < 0 ? -1 : 1);
+    }
+    return turned_by(frame, rad);
+}
+
 // TRANS, ROT, SCALE and MIRROR delete what was before them; ATRANS, AROT, ASCALE and AMIRROR add to it.
 Result<void> Interpreter::transform(const Words& words) {
     const bool adds = words.frame[0] == 'A';
@@ -103,11 +128,7 @@ Result<void> Interpreter::transform(const Words& words) {
         if (kind == "TRANS") shift[k] = word->value * unit_mm_;
         if (kind == "MIRROR") scale_[k] = -scale_[k];
         if (kind != "SCALE") continue;
-        if (!kScale.contains(word->value) || !kScale.contains(std::abs(scale_[k] * word->value))) {
-            return path_.refuse(place(word->column), "the scale is out of range",
-                                "write a factor of 0.001 to 1000");
-        }
-        scale_[k] *= word->value;
+        if (auto done = take_scale(scale_[k], word->value, place(word->column)); !done) return done;
     }
     if (kind == "TRANS") turned_ = turned_.shifted(in_frame(shift));
     return set_frame(line_number());
@@ -126,18 +147,9 @@ Result<void> Interpreter::turn_frame(const Words& words) {
             return good;
         rad[axes()[2]] = *words.plane_turn * math::kRadPerDeg;
     }
-    // In mirrored coordinates a turn about an axis is one about its image, to the other side.
-    const double mirrored = scale_.x * scale_.y * scale_.z < 0 ? -1 : 1;
-    for (int k = 0; k < 3; ++k) {
-        const int first = (k + 1) % 3, second = (k + 2) % 3;
-        if (rad[k] != 0 && std::abs(scale_[first]) != std::abs(scale_[second])) {
-            return path_.refuse(place(words.first_column),
-                                "a turn of a frame with different scales is not read",
-                                "write the same factor for the axes that turn");
-        }
-        rad[k] *= mirrored * (scale_[k] < 0 ? -1 : 1);
-    }
-    turned_ = turned_by(turned_, rad);
+    const auto turned = turned_within(turned_, scale_, rad, place(words.first_column));
+    if (!turned) return std::unexpected(turned.error());
+    turned_ = *turned;
     return {};
 }
 

@@ -188,6 +188,9 @@ class Interpreter : private SystemValues {
     // Frames (frames.cpp)
     Result<void> transform(const Words& words);
     Result<void> turn_frame(const Words& words);
+    Result<void> take_scale(double& scale, double factor, Place where) const;
+    Result<motion::WorkFrame> turned_within(const motion::WorkFrame& frame, const Vec3& scale, Vec3 rad,
+                                            Place where) const;
     Result<void> swivel(const Call& call);
     Result<void> set_frame(int line);
     void set_work_offset(int code);
@@ -206,10 +209,10 @@ class Interpreter : private SystemValues {
                               Cursor& in);
     Result<void> set_frame_part(motion::WorkFrame& frame, const std::vector<Value>& index, std::size_t first,
                                 std::size_t at, Cursor& in);
-    Result<motion::WorkFrame> frame_formula(Cursor& in);
+    Result<motion::WorkFrame> frame_formula(Cursor& in, Vec3& scale);
     Result<motion::WorkFrame> frame_value(const std::string& name, std::size_t at, Cursor& in);
-    Result<motion::WorkFrame> frame_by_call(const motion::WorkFrame& frame, const Call& call, std::size_t at,
-                                            Cursor& in);
+    Result<motion::WorkFrame> frame_by_call(const motion::WorkFrame& frame, Vec3& scale, const Call& call,
+                                            std::size_t at, Cursor& in);
 
     // Cycles (cycles.cpp, drilling.cpp, pockets.cpp)
     Result<bool> run_cycle(const Call& call);

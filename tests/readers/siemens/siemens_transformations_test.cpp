@@ -119,8 +119,31 @@ TEST(SiemensFrames, AreValues) {
     EXPECT_LT(
         apart_mm(plain, siemens("$P_PFRAME=CTRANS(X,99)\n$P_PFRAME=CTRANS(X,10,Y,5):CROT(Z,30)\n" + path)),
         1e-9);
-    EXPECT_NE(fault("$P_PFRAME=CSCALE(X,2)\n").find("SCALE and MIRROR in blocks"), std::string::npos);
     EXPECT_NE(fault("$P_ACTFRAME=CTRANS(X,2)\n").find("is not read"), std::string::npos);
+}
+
+TEST(SiemensFrames, ScaleAndMirrorAsTheirBlocksDo) {
+    const std::string path = "F100\nG0 X0 Y0 Z0\nG1 X10 Y5\nG2 X20 Y15 CR=20\n";
+    const struct {
+        const char* value;
+        const char* blocks;
+    } cases[] = {
+        {"$P_PFRAME=CTRANS(X,10):CSCALE(X,2,Y,2):CTRANS(Y,3):CROT(Z,30)\n",
+         "TRANS X10\nASCALE X2 Y2\nATRANS Y3\nAROT Z30\n"},
+        {"$P_PFRAME=CTRANS(X,10):CMIRROR(X):CTRANS(X,3):CROT(Z,30)\n",
+         "TRANS X10\nAMIRROR X0\nATRANS X3\nAROT Z30\n"},
+        {"TRANS X10\n$P_PFRAME=$P_PFRAME:CMIRROR(X)\n$P_PFRAME=$P_PFRAME:CTRANS(X,3)\n",
+         "TRANS X10\nAMIRROR X0\nATRANS X3\n"},
+        {"TRANS X10\n$P_PFRAME[X,SC]=2\n$P_PFRAME[Y,SC]=2\n$P_PFRAME[Y,MI]=1\n",
+         "TRANS X10\nASCALE X2 Y2\nAMIRROR Y0\n"},
+    };
+    for (const auto& c : cases)
+        EXPECT_LT(apart_mm(siemens(c.blocks + path), siemens(c.value + path)), 1e-9) << c.value;
+    // X of the image: 10 - 10.
+    expect_near(
+        siemens("F100\n$P_PFRAME=CTRANS(X,10):CMIRROR(X)\nG0 X0 Y0 Z0\nG1 X10\n").moves.back().end.tip_mm,
+        {0, 0, 0});
+    EXPECT_NE(fault("$P_PFRAME=CSCALE(X,0)\n").find("0.001 to 1000"), std::string::npos);
 }
 
 double fed_at(const motion::Program& program, double z) {
