@@ -2,6 +2,7 @@
 #include "job/assumption.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/text/decimal.hpp"
@@ -14,7 +15,9 @@
 namespace tribo::job {
 namespace {
 
-constexpr double kSpindleRpm = 10000, kFeedMmPerMin = 600, kDiameterMm = 6;
+constexpr double kSpindleRpm = 10000, kFeedMmPerMin = 600;
+// Of tools that nothing describes, mm: the first, and what follows where it has no place.
+constexpr std::array kDiametersMm{6.0, 3.0, 2.0, 1.0, 0.5, 0.2};
 constexpr const char* kMaterial = "al7075-t6";
 // Material below the path, mm.
 constexpr double kBelowMm = 3;
@@ -85,34 +88,74 @@ Job job_of_program(const std::string& file, PathKind kind, const ProgramInputs& 
     return job;
 }
 
-Result<void> assume_tools(Job& job, const motion::Program& program, Warnings& warnings) {
-    if (auto done = take_declared_tools(job, program, warnings); !done) return done;
-    const auto tools = called_tools(program);
-    if (!tools) return std::unexpected(tools.error());
-    std::vector<milling::Cutter> assumed;
-    std::string names;
-    for (const int number : *tools) {
+AssumedTools::AssumedTools(std::vector<int> numbers, const motion::Program& program)
+    : source_(program.source) {
+    for (const int number : numbers) tools_.push_back({number, 0, {}});
+    if (tools_.empty()) return;
+    for (const motion::Move& move : program.moves) {
+        if (begins_.empty() || begins_.back().second != move.tool) begins_.emplace_back(move.line, move.tool);
+    }
+}
+
+void AssumedTools::add_to(Job& job) const {
+    for (const Tool& tool : tools_) {
+        job.cutters.emplace_back();
+        job.cutters.back().number = tool.number;
+        job.cutters.back().diameter_mm = kDiametersMm[tool.size];
+    }
+}
+
+bool AssumedTools::shrink_after(const Error& refusal) {
+    std::pair<int, int> begin{0, 0};
+    for (const auto& [line, number] : begins_) {
+        if (line <= refusal.line && line >= begin.first) begin = {line, number};
+    }
+    const auto tool = std::ranges::find_if(
+        tools_, [&](const Tool& t) { return t.number == begin.second || t.number == 0; });
+    if (tool == tools_.end() || tool->size + 1 == kDiametersMm.size()) return false;
+    ++tool->size;
+    tool->refusal = "line " + std::to_string(refusal.line) + " (" + refusal.cause + ")";
+    return true;
+}
+
+void AssumedTools::say(Warnings& warnings) const {
+    for (std::size_t size = 0; size < kDiametersMm.size(); ++size) {
+        milling::Cutter first;
+        std::string names, refusal;
+        int count = 0;
+        for (const Tool& tool : tools_) {
+            if (tool.size != size) continue;
+            names += (count == 0 ? "T" : ", T") + std::to_string(tool.number);
+            if (count++ == 0) first.number = tool.number;
+            if (refusal.empty()) refusal = tool.refusal;
+        }
+        if (count == 0) continue;
+        first.diameter_mm = kDiametersMm[size];
+        const std::string which = first.number == 0 ? "the tool is"
+                                  : count == 1      ? "tool " + names + " is"
+                                                    : "the tools " + names + " are";
+        const std::string why = size == 0 ? std::string() : ", since a larger one is refused at " + refusal;
+        warnings.push_back(
+            {source_, 0,
+             which + " not described: a flat end mill of " + format_decimal(first.diameter_mm) + " mm with " +
+                 std::to_string(first.flutes) + " flutes is assumed" + (count == 1 ? "" : " for each") + why +
+                 "; write --tool \"" + tool_words(first) + (count == 1 ? "\"" : "\" and so on") +
+                 ", or a [[cutter]] into a job"});
+    }
+}
+
+Result<AssumedTools> take_tools(Job& job, const motion::Program& program, Warnings& warnings) {
+    if (auto done = take_declared_tools(job, program, warnings); !done) return std::unexpected(done.error());
+    const auto called = called_tools(program);
+    if (!called) return std::unexpected(called.error());
+    std::vector<int> unknown;
+    for (const int number : *called) {
         const bool is_described = std::ranges::any_of(job.cutters, [&](const milling::Cutter& c) {
             return c.number == number || number == 0 || (c.number == 0 && job.cutters.size() == 1);
         });
-        if (is_described) continue;
-        names += (assumed.empty() ? "T" : ", T") + std::to_string(number);
-        assumed.emplace_back();
-        assumed.back().number = number;
-        assumed.back().diameter_mm = kDiameterMm;
+        if (!is_described) unknown.push_back(number);
     }
-    if (assumed.empty()) return {};
-    const bool is_one = assumed.size() == 1;
-    const std::string which = assumed[0].number == 0 ? "the tool is"
-                              : is_one               ? "tool " + names + " is"
-                                                     : "the tools " + names + " are";
-    warnings.push_back({program.source, 0,
-                        which + " not described: a flat end mill of " + format_decimal(kDiameterMm) +
-                            " mm with " + std::to_string(assumed[0].flutes) + " flutes is assumed" +
-                            (is_one ? "" : " for each") + "; write --tool \"" + tool_words(assumed[0]) +
-                            (is_one ? "\"" : "\" and so on") + ", or a [[cutter]] into a job"});
-    job.cutters.insert(job.cutters.end(), assumed.begin(), assumed.end());
-    return {};
+    return AssumedTools(std::move(unknown), program);
 }
 
 Result<void> assume_stock(Job& job, const motion::Program& program, const ProgramInputs& inputs,

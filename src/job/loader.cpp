@@ -236,15 +236,24 @@ FileResult<void> load_program(Reading& reading, const std::string& name, PathKin
     auto program = reading.program(job);
     if (!program) return std::unexpected(program.error());
     const std::size_t given = job.cutters.size();
-    if (auto done = assume_tools(job, *program, loaded.assumptions); !done)
-        return std::unexpected(FileFailure(done.error()));
-    if (job.cutters.size() > given) {
+    auto assumed = take_tools(job, *program, loaded.assumptions);
+    if (!assumed) return std::unexpected(FileFailure(assumed.error()));
+    const std::size_t described = job.cutters.size();
+    assumed->add_to(job);
+    std::optional<FileFailure> refusal;  // the first, of the usual size
+    while (job.cutters.size() > given) {
         // Cutter compensation follows the tools, so the program is read as a job with these tools reads it.
         *program = {};
         reading.budget = before;
         program = reading.program(job);
-        if (!program) return std::unexpected(program.error());
+        if (program) break;
+        if (!refusal) refusal = program.error();
+        if (!assumed->shrink_after(program.error())) return std::unexpected(*refusal);
+        job.cutters.resize(described);
+        assumed->add_to(job);
+        program = motion::Program{};
     }
+    assumed->say(loaded.assumptions);
     if (auto done = assume_stock(job, *program, inputs, loaded.assumptions); !done)
         return std::unexpected(FileFailure(done.error()));
     say_assumed_process(job, *program, inputs, loaded.assumptions);

@@ -126,6 +126,38 @@ TEST(Assumption, of_several_tools_is_one_line) {
     EXPECT_EQ(load(program, inputs).job().cutters.size(), 1u);
 }
 
+TEST(Assumption, takes_a_smaller_tool_where_the_usual_one_has_no_place) {
+    // The way into the contour is 2 mm long; a radius of 1.5 mm is shorter.
+    const std::string path = "G1 Z-2 F300\nG41 D2 X2\nG1 Y20\nX40\nG40 Y25\n";
+    const Loaded small = load("G21 G90\nS9000 M3\nT2 M6\nG0 X0 Y0 Z5\n" + path);
+    EXPECT_EQ(
+        small.assumptions.at(0),
+        "p.nc: warning: tool T2 is not described: a flat end mill of 3 mm with 2 flutes is assumed, since a "
+        "larger one is refused at line 6 (the entry into compensation is 2 mm long, not longer than the "
+        "cutter's radius of 3 mm); write --tool \"T2 flat 3 flutes 2\", or a [[cutter]] into a job");
+    EXPECT_EQ(small.job().cutters.at(0).diameter_mm, 3);
+    EXPECT_NEAR(small.result->program.moves.back().start.tip_mm.y, 20 + 1.5, 1e-12);
+    // The tools that fit keep their size.
+    const Loaded two =
+        load("G21 G90\nS9000 M3\nT1 M6\nG0 X0 Y0 Z5\nG1 Z-1 F300\nX50\nG0 Z5\nT2 M6\nX0 Y0\n" + path);
+    ASSERT_EQ(two.job().cutters.size(), 2u);
+    EXPECT_EQ(two.job().cutters[0].diameter_mm, 6);
+    EXPECT_EQ(two.job().cutters[1].diameter_mm, 3);
+    EXPECT_TRUE(two.assumptions.at(0).starts_with(
+        "p.nc: warning: tool T1 is not described: a flat end mill of 6 mm"));
+    EXPECT_TRUE(two.assumptions.at(1).starts_with(
+        "p.nc: warning: tool T2 is not described: a flat end mill of 3 mm"));
+    // A tool that the program describes is not made smaller, and there is an end.
+    for (const char* start : {"(T2 D=6. CR=0. - flat end mill)\nG21 G90\nT2 M6\nG0 X0 Y0 Z5\n",
+                              "G21 G90\nT2 M6\nG0 X1.95 Y0 Z5\n"}) {
+        MemorySource files;
+        files.put("p.nc", start + path);
+        const auto refused = load_job(files, "p.nc", {});
+        ASSERT_FALSE(refused.has_value()) << start;
+        EXPECT_NE(refused.error().text().find("the entry into compensation"), std::string::npos);
+    }
+}
+
 TEST(Assumption, places_a_block_of_a_given_size_on_the_path) {
     ProgramInputs inputs;
     inputs.stock = *parse_stock_words("80 60 20");
