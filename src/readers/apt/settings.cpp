@@ -196,6 +196,48 @@ void note_tool_kind(const Statement& statement, Report& report) {
     }
 }
 
+// The seven numbers of CUTTER: diameter, corner radius, its centre from the axis and above the tip, the angle
+// of the bottom to the plane normal to the axis, that of the flank to the axis, and the height.
+Result<void> define_cutter(const std::array<double, 7>& value, std::size_t first, const Statement& statement,
+                           Settings& settings, Report& report) {
+    const auto [d, r, e, f, bottom_deg, flank_deg, height] = value;
+    if (!(d > 0)) return report.refuse(statement.items[first], "a cutter without a diameter", "correct it");
+    if (const double mm = d * settings.unit_mm; !kLimits.cutter_diameter.range.contains(mm)) {
+        return report.refuse(statement.items[first], out_of_range(kLimits.cutter_diameter, mm),
+                             range_remedy(kLimits.cutter_diameter));
+    }
+    if (r < 0 || 2 * r > d + kCutterTolerance) {
+        return report.refuse(statement.items[first + 1], "a corner radius that does not fit the diameter",
+                             "correct it");
+    }
+    const auto differs = [](double a, double b) { return std::abs(a - b) > kCutterTolerance; };
+    const bool is_mill =
+        !differs(e, 0.5 * d - r) && !differs(f, r) && !differs(bottom_deg, 0) && !differs(flank_deg, 0);
+    settings.cutter = motion::DeclaredTool{0, d * settings.unit_mm, std::min(r, 0.5 * d) * settings.unit_mm,
+                                           statement.word.line};
+    // The angles of APT: of the bottom to the plane normal to the axis, of the flank to the axis.
+    const bool is_point = !differs(r, 0) && bottom_deg > 0 && !differs(flank_deg, 0) && !differs(e, 0.5 * d);
+    const bool is_cone = !differs(bottom_deg, 0) && flank_deg > 0 && height > 0;
+    std::string remark;
+    ToolSizes sizes{.diameter_mm = settings.cutter->diameter_mm, .corner_mm = settings.cutter->corner_mm};
+    if (is_point) {
+        sizes.shape = ToolShape::drill;
+        sizes.point_deg = 180 - 2 * bottom_deg;
+    } else if (is_cone) {
+        sizes.shape = ToolShape::taper;
+        sizes.taper_deg = flank_deg;
+        sizes.edge_mm = height * settings.unit_mm;
+    }
+    const bool is_shaped = (is_point || is_cone) && set_shape(*settings.cutter, sizes, remark);
+    if (!is_mill && (!is_shaped || !remark.empty()) && report.first(Note::cutter_shape)) {
+        report.warn(statement.word.line,
+                    std::string(statement.word.text) +
+                        " describes a cone or a barrel: only its diameter and corner radius are taken");
+    }
+    settings.diameter_mm = settings.cutter->diameter_mm;
+    return {};
+}
+
 Result<void> set_cutter(const Statement& statement, Settings& settings, Report& report) {
     // CUTTER/DISPLY, CUTTER/READ: how the cutter is shown, or a file with it.
     if (!statement.items.empty() && !number_of(statement.items[0].text) &&
@@ -216,58 +258,42 @@ Result<void> set_cutter(const Statement& statement, Settings& settings, Report& 
         if (!read) return std::unexpected(read.error());
         value[i] = *read;
     }
-    const auto [d, r, e, f, bottom_deg, flank_deg, height] = value;
-    if (!(d > 0)) return report.refuse(statement.items[0], "a cutter without a diameter", "correct it");
-    if (const double mm = d * settings.unit_mm; !kLimits.cutter_diameter.range.contains(mm)) {
-        return report.refuse(statement.items[0], out_of_range(kLimits.cutter_diameter, mm),
-                             range_remedy(kLimits.cutter_diameter));
-    }
-    if (r < 0 || 2 * r > d + kCutterTolerance) {
-        return report.refuse(statement.items[1], "a corner radius that does not fit the diameter",
-                             "correct it");
-    }
-    const auto differs = [](double a, double b) { return std::abs(a - b) > kCutterTolerance; };
-    const bool is_mill = (count < 3 || !differs(e, 0.5 * d - r)) && (count < 4 || !differs(f, r)) &&
-                         !differs(bottom_deg, 0) && !differs(flank_deg, 0);
-    settings.cutter = motion::DeclaredTool{0, d * settings.unit_mm, std::min(r, 0.5 * d) * settings.unit_mm,
-                                           statement.word.line};
-    // The angles of APT: of the bottom to the plane normal to the axis, of the flank to the axis.
-    const bool is_point = !differs(r, 0) && bottom_deg > 0 && !differs(flank_deg, 0) && !differs(e, 0.5 * d);
-    const bool is_cone = !differs(bottom_deg, 0) && flank_deg > 0 && height > 0;
-    std::string remark;
-    ToolSizes sizes{.diameter_mm = settings.cutter->diameter_mm, .corner_mm = settings.cutter->corner_mm};
-    if (is_point) {
-        sizes.shape = ToolShape::drill;
-        sizes.point_deg = 180 - 2 * bottom_deg;
-    } else if (is_cone) {
-        sizes.shape = ToolShape::taper;
-        sizes.taper_deg = flank_deg;
-        sizes.edge_mm = height * settings.unit_mm;
-    }
-    const bool is_shaped = (is_point || is_cone) && set_shape(*settings.cutter, sizes, remark);
-    if (!is_mill && (!is_shaped || !remark.empty()) && report.first(Note::cutter_shape)) {
-        report.warn(statement.word.line,
-                    "CUTTER describes a cone or a barrel: only its diameter and corner radius are taken");
-    }
-    settings.diameter_mm = settings.cutter->diameter_mm;
-    return {};
+    if (count < 3) value[2] = 0.5 * value[0] - value[1];
+    if (count < 4) value[3] = value[1];
+    return define_cutter(value, 0, statement, settings, report);
 }
 
 Result<void> set_tool_data(const Statement& statement, Settings& settings, Report& report) {
-    if (statement.items.size() < 2) {
+    const auto& items = statement.items;
+    const auto first =
+        std::ranges::find_if(items, [](const Item& item) { return number_of(item.text).has_value(); });
+    const std::size_t at = static_cast<std::size_t>(first - items.begin());
+    if (at == 0 || first == items.end()) {
         return report.refuse(statement.word, "TLDATA without a kind and a diameter",
                              "write TLDATA/MILL, diameter and corner radius");
     }
-    const bool is_mill = matches(statement.items[0].text, "MILL");
-    Statement cutter;
-    cutter.word = statement.word;
-    cutter.items.push_back(statement.items[1]);
-    if (is_mill && statement.items.size() > 2) cutter.items.push_back(statement.items[2]);
-    if (!is_mill && report.first(Note::cutter_shape)) {
-        report.warn(statement.word.line,
-                    "TLDATA describes another tool than a mill: only its diameter is taken");
+    // Diameter, corner radius, length; of mills the angles of side and tip, of drills that of the point.
+    std::array<double, 5> value{};
+    for (std::size_t i = 0; i < value.size() && at + i < items.size(); ++i) {
+        if (!number_of(items[at + i].text)) break;
+        const auto read = report.number(items[at + i], kLimits.coordinate);
+        if (!read) return std::unexpected(read.error());
+        value[i] = *read;
     }
-    return set_cutter(cutter, settings, report);
+    const bool is_mill = matches(items[0].text, "MILL"), is_drill = matches(items[0].text, "DRILL");
+    if (!is_mill && !is_drill && report.first(Note::cutter_shape)) {
+        report.warn(statement.word.line,
+                    "TLDATA describes another tool than a mill or a drill: only its diameter is taken");
+    }
+    const double diameter = value[0], corner = is_mill ? value[1] : 0;
+    std::array<double, 7> cutter{diameter, corner, 0.5 * diameter - corner, corner, 0, 0, value[2]};
+    if (is_mill) {
+        cutter[4] = value[4];
+        cutter[5] = value[3];
+    } else if (is_drill && value[3] > 0) {
+        cutter[4] = 90 - value[3] / 2;
+    }
+    return define_cutter(cutter, at, statement, settings, report);
 }
 
 }  // namespace tribo::readers::apt

@@ -212,5 +212,29 @@ TEST(AptMotion, ToolsAndSpeedsInTheSpellingsOfVendors) {
     EXPECT_TRUE(warns_of(program, 13, "AUXFUN hands text"));
 }
 
+TEST(AptMotion, TakesTheShapeOfToolsFromTldata) {
+    const auto tool = [](const std::string& data) {
+        const Program program = apt_in_mm("TLDATA/" + data + "\nLOAD/TOOL,1\nGOTO/0,0,0\nGOTO/1,0,0\n");
+        return program.tools.empty() ? motion::DeclaredTool{} : program.tools[0];
+    };
+    // Diameter, corner radius, length, the angles of side and tip.
+    const motion::DeclaredTool taper = tool("MILL,4.0,0.0,20.0,5.0,0.0");
+    EXPECT_EQ(taper.kind, "taper");
+    EXPECT_EQ(taper.tip_mm, 4);
+    EXPECT_EQ(taper.taper_deg, 5);
+    EXPECT_NEAR(taper.diameter_mm, 4 + 2 * 20 * std::tan(5 * kPi / 180), 1e-9);
+    const motion::DeclaredTool pointed = tool("MILL,10.0,0.0,50.0,0.0,45.0");
+    EXPECT_EQ(pointed.kind, "drill");
+    EXPECT_EQ(pointed.point_deg, 90);
+    // Kind of the machine, diameter, corner radius, length, angle of the point, length of the flutes.
+    const motion::DeclaredTool drill = tool("DRILL,MILL,8.5,0.0,80.0,118.0,35.0");
+    EXPECT_EQ(drill.kind, "drill");
+    EXPECT_EQ(drill.diameter_mm, 8.5);
+    EXPECT_NEAR(drill.point_deg, 118, 1e-12);
+    const Program slot = apt_in_mm("TLDATA/TCUTTER,20.0,0,50,3\nLOAD/TOOL,1\nGOTO/0,0,0\nGOTO/1,0,0\n");
+    EXPECT_EQ(slot.tools.at(0).diameter_mm, 20);
+    EXPECT_TRUE(warns_of(slot, 2, "another tool than a mill or a drill"));
+}
+
 }  // namespace
 }  // namespace tribo::readers
