@@ -96,7 +96,7 @@ void ToolNotes::read(std::string_view text, int line) {
 }
 
 void ToolNotes::name(int number, std::string_view name, int line) {
-    Note note{read_tool_text(name), line};
+    Note note{read_tool_text(name, true), line};
     if (note.text.diameter && !index_.contains(number)) attach(number, note);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readers/tools/tool_shape.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -248,6 +249,12 @@ ShapeWords shape_in(std::string_view folded_text) {
     const bool is_end_mill = words.find(" END MILL ") != std::string::npos;
     if (found.shape == unstated && is_end_mill) found.shape = flat;
     return found;
+}
+
+bool is_noun_of_tool(std::string_view folded_word) {
+    const std::string word = words_of(folded_word);
+    return std::ranges::any_of(
+        kPhrases, [&](const Phrase& phrase) { return phrase.is_noun && contains(word, phrase); });
 }
 
 std::string_view name_of(ToolShape shape) {

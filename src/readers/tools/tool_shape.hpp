@@ -44,6 +44,9 @@ struct ShapeWords {
 // Finds the shape in a text of folded().
 ShapeWords shape_in(std::string_view folded_text);
 
+// True for a single word that names a tool, such as MILL, DRILL or SCHAFTFRAESER.
+bool is_noun_of_tool(std::string_view folded_word);
+
 // Returns the English name, for messages: "spot drill".
 std::string_view name_of(ToolShape shape);
 

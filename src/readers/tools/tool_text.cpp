@@ -39,6 +39,8 @@ constexpr std::array kAngleWords{"TAPER"sv, "ANGLE"sv, "WINKEL"sv,  "SPITZENWINK
                                  "POINT"sv, "SIG"sv,   "TIPANGLE"sv};
 constexpr std::array kOffsetWords{"COMP"sv, "COMPENSATION"sv, "OFFSET"sv, "REGISTER"sv, "KORREKTUR"sv};
 constexpr int kMostFlutesInText = 24;
+// Whole numbers beside a noun that are sizes: ENDMILL 12, but ENDMILL 2 may be the second one.
+constexpr double kLeastWholeMm = 3, kLargestWholeMm = 160;
 
 // How plainly a text states a diameter: a higher one overrides a lower one.
 enum class Plainness { none, size, name, key };
@@ -50,7 +52,8 @@ bool is_one_of(Words words, const TextToken& token) {
 
 class TextReader {
   public:
-    explicit TextReader(std::string_view text) : text_(folded(text)), tokens_(tokens_of(text_)) {}
+    TextReader(std::string_view text, bool is_name)
+        : text_(folded(text)), tokens_(tokens_of(text_)), is_name_(is_name) {}
 
     ToolText read() {
         if (read_cut_viewer()) return tool_;
@@ -142,6 +145,12 @@ class TextReader {
             TextToken size = next;
             size.unit_mm = 1;
             set_diameter(size, Plainness::name);
+            return 2;
+        }
+        if (t.text == "M" && tool_.shape == ToolShape::tap && next.is_number() && next.is_glued) {  // M8
+            TextToken size = next;
+            size.unit_mm = 1;
+            set_diameter(size, Plainness::size);
             return 2;
         }
         const bool is_corner = is_one_of(kCornerWords, t) ||
@@ -252,7 +261,36 @@ class TextReader {
             is_behind_number_ = true;
             set_diameter(t, Plainness::size);
         }
+        if (t.unit_mm == 0 && !is_extent) take_size_beside_noun(i);
         return 1;
+    }
+
+    // DRILL 6.8, 8.5 DRILL, BOHRER_6.8: in the name of a tool, or behind a tool's number. A whole number is a
+    // size in mm where it cannot count things.
+    void take_size_beside_noun(std::size_t i) {
+        const auto is_joint = [](const TextToken& t) {
+            return t.is_sign('_') || t.is_sign('-') || t.is_sign(':');
+        };
+        const auto is_noun = [](const TextToken& t) {
+            return t.kind == TextToken::Kind::word && is_noun_of_tool(t.text);
+        };
+        const TextToken& number = token(i);
+        const std::size_t before = i > 1 && is_joint(token(i - 1)) ? i - 2 : i - 1;
+        const std::size_t after = is_joint(token(i + 1)) ? i + 2 : i + 1;
+        const bool follows = i > 0 && is_noun(token(before)), leads = is_noun(token(after));
+        if (!(is_name_ || tool_.number) || !(follows || leads)) return;
+        if (!number.is_integer) {
+            set_diameter(number, Plainness::size);
+            return;
+        }
+        const bool is_size = number.value >= kLeastWholeMm && number.value <= kLargestWholeMm &&
+                             number.value != tool_.number.value_or(0);
+        const bool ends = token(i + 1).kind != TextToken::Kind::word && !token(i + 1).is_number();
+        const bool begins = i == 0 || is_right_behind_number(i);
+        if (!is_size || !((follows && ends) || (leads && begins))) return;
+        TextToken size = number;
+        size.unit_mm = 1;
+        set_diameter(size, Plainness::size);
     }
 
     // True if nothing but signs stands between the tool's number and token i.
@@ -332,13 +370,14 @@ class TextReader {
     std::size_t number_at_ = 0;  // of the tool's number, where T stands before it
     bool is_about_tool_ = false, has_diameter_key_ = false, is_behind_number_ = false, is_named_ = false;
     bool is_about_offset_ = false;
+    bool is_name_ = false;
 };
 
 }  // namespace
 
-ToolText read_tool_text(std::string_view text) {
+ToolText read_tool_text(std::string_view text, bool is_name) {
     constexpr std::size_t longest = 400;
-    return TextReader(text.substr(0, longest)).read();
+    return TextReader(text.substr(0, longest), is_name).read();
 }
 
 }  // namespace tribo::readers

@@ -39,7 +39,7 @@ struct ToolText {
     bool describes_tool() const { return diameter && (number || names_tool); }
 };
 
-// Never fails: a text that is about something else gives nothing.
-ToolText read_tool_text(std::string_view text);
+// Never fails: a text that is about something else gives nothing. `is_name`: it is the name of a tool.
+ToolText read_tool_text(std::string_view text, bool is_name = false);
 
 }  // namespace tribo::readers

@@ -90,6 +90,13 @@ const Form kForms[] = {
     {"T8 FORET A CENTRER D3.15", 8, centre_drill, 3.15, 0, 0, 0, 0},
     {"T3 D=3 CR=0. - ZMIN=-1. - FRESA CON PUNTA PLANA", 3, flat, 3, 0, 0, 0, 0},
     {"T11 GEWINDEBOHRER M6 D6", 11, tap, 6, 0, 0, 0, 0},
+    // A bare number beside the noun, behind the tool's number
+    {"T5 DRILL 6.8", 5, drill, 6.8, 0, 0, 0, 0},
+    {"T7 - 8.5 DRILL", 7, drill, 8.5, 0, 0, 0, 0},
+    {"T3 .5 ENDMILL 4 FLUTE", 3, flat, 0.5, 0, 0, 0, 4},
+    {"T12 FACE MILL 50", 12, face, 50, 1, 0, 0, 0},
+    {"T2 12 ENDMILL", 2, flat, 12, 1, 0, 0, 0},
+    {"T8 TAP M8X1.25", 8, tap, 8, 1, 0, 0, 0},
 };
 
 TEST(ToolText, reads_the_forms_of_cam_systems_and_people) {
@@ -127,9 +134,34 @@ TEST(ToolText, takes_nothing_from_texts_about_other_things) {
                              "X= 100.000, Y= 100.000 ,Z= 12.000",
                              "ENGRAVE \"5\" AND \"10\"",
                              "FEED 300 MM/MIN",
-                             "tool change at 0.0000  0.0000  10.0000 "}) {
+                             "tool change at 0.0000  0.0000  10.0000 ",
+                             "MILL 1.5 DEEP",
+                             "T5 ENDMILL 2",
+                             "T5 DRILL 5",
+                             "T5 DRILL 4 HOLES",
+                             "DRILL 6.8"}) {
         EXPECT_FALSE(read_tool_text(text).describes_tool()) << text;
     }
+}
+
+TEST(ToolText, takes_a_bare_number_beside_the_noun_in_the_name_of_a_tool) {
+    const struct {
+        const char* name;
+        ToolShape shape;
+        double diameter;
+    } cases[] = {{"BOHRER_6.8", drill, 6.8},
+                 {"FRAESER_12", flat, 12},
+                 {"SCHAFTFRAESER_8", flat, 8},
+                 {"8.5 SPIRALBOHRER", drill, 8.5},
+                 {"GEWINDEBOHRER_M8", tap, 8}};
+    for (const auto& c : cases) {
+        const ToolText tool = read_tool_text(c.name, true);
+        ASSERT_TRUE(tool.describes_tool()) << c.name;
+        EXPECT_EQ(tool.shape, c.shape) << c.name;
+        EXPECT_EQ(tool.diameter->value, c.diameter) << c.name;
+    }
+    for (const char* name : {"FRAESER_1", "SCHRUPPER", "TASTER_6", "MILL_2_OF_8"})
+        EXPECT_FALSE(read_tool_text(name, true).describes_tool()) << name;
 }
 
 motion::DeclaredTool only_tool(ToolNotes& notes, double unit_mm = 1) {
