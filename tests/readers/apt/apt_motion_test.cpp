@@ -233,7 +233,7 @@ TEST(AptMotion, TakesTheShapeOfToolsFromTldata) {
     EXPECT_NEAR(drill.point_deg, 118, 1e-12);
     const Program slot = apt_in_mm("TLDATA/TCUTTER,20.0,0,50,3\nLOAD/TOOL,1\nGOTO/0,0,0\nGOTO/1,0,0\n");
     EXPECT_EQ(slot.tools.at(0).diameter_mm, 20);
-    EXPECT_TRUE(warns_of(slot, 2, "another tool than a mill or a drill"));
+    EXPECT_TRUE(warns_of(slot, 3, "another tool than a mill or a drill"));
 }
 
 }  // namespace
