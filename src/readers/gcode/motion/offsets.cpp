@@ -172,7 +172,10 @@ Result<void> set_table(Command& command, State& state, Output& output, int colum
         }
         return set_work_origin_by_tip(command, state, output, column);
     }
-    if (kind != nullptr && kind->value >= 10 && kind->value <= 13) {
+    // Without L on the oldest Fanuc controls: G10 P R.
+    const bool is_old = kind == nullptr && output.options.dialect == GcodeDialect::fanuc &&
+                        command.has('P') && command.has('R') && !command.has_any("XYZ");
+    if (is_old || (kind != nullptr && kind->value >= 10 && kind->value <= 13)) {
         for (const char letter : {'P', 'R', 'X', 'Y', 'Z', 'I', 'J', 'Q'}) command.use(letter);
         if (output.first(Note::tool_register)) {
             output.warn(
