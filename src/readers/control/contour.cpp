@@ -176,7 +176,7 @@ Result<Contour::Pieces> Contour::offset(const Path& path, const Pieces& pieces) 
             return path.refuse(piece.words.place,
                                "the arc's radius " +
                                    mm_text(gcode::distance(piece.element.end, piece.element.centre)) +
-                                   " is smaller than the cutter's, " + mm_text(std::abs(left_mm_)),
+                                   " is not larger than the cutter's, " + mm_text(std::abs(left_mm_)),
                                "take a smaller cutter or round the corner more");
         }
         piece.element = *beside;

@@ -210,7 +210,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G41.1 D-2\n", 3, 7, "of -2 mm is out of range"},
         {ready + "G42 D1.5\n", 3, 5, "not the number of a tool"},
         {ready + "G41.1 D4\nG1 X11\n", 4, 1, "not longer than the cutter's radius of 2 mm"},
-        {ready + "G41.1 D4\nG1 X20\nG3 X22 Y2 J2\n", 5, 1, "radius 2 mm is smaller than the cutter's"},
+        {ready + "G41.1 D4\nG1 X20\nG3 X22 Y2 J2\n", 5, 1, "radius 2 mm is not larger than the cutter's"},
         {ready + "G41.1 D4\nG1 X20\nY1\n", 5, 1, "without gouging line 4"},
         {ready + "G41.1 D4\nG1 X20\nG41.1 D5\n", 5, 1, "G41.1 does not go with the cutter compensation"},
         {ready + "G41.1 D4\nG1 X20\nD5 X30\n", 5, 1, "D changes the cutter compensation"},

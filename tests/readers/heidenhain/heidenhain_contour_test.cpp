@@ -195,7 +195,7 @@ TEST(HeidenhainContour, RefusesWhatDoesNotFit) {
         {with_cutter("L X+0 Y+0 RR F200\nL Y+4\nL X+4\nL Y+0\n"), 7, 1,
          "does not fit into the inside corner"},
         {with_cutter("L X+0 Y+0 RL F200\nCC X-2 Y+0\nC X-2 Y+2 DR+\nL X-9\n"), 7, 1,
-         "the arc's radius 2 mm is smaller than the cutter's, 5 mm"},
+         "the arc's radius 2 mm is not larger than the cutter's, 5 mm"},
         {with_cutter("CC X+0 Y+0\nC X+20 Y+20 RL DR+ F200\n"), 6, 3, "begins with a circle"},
         {after_start("L X+3 F100\nRND R9\nL Y+3\n"), 5, 1, "RND of 9 mm does not fit"},
         {after_start("L X+3 F100\nCHF 4\nL Y+3\n"), 5, 1, "CHF of 4 mm does not fit"},

@@ -48,7 +48,7 @@ class Corner {
         if (!moved) {
             return refuse(programmed,
                           "the arc's radius " + mm_text(distance(contour.start, contour.centre)) +
-                              " is smaller than the cutter's, " + mm_text(std::abs(comp_.left_mm)),
+                              " is not larger than the cutter's, " + mm_text(std::abs(comp_.left_mm)),
                           "take a smaller cutter or round the corner more");
         }
         if (!comp_.has_begun) return enter(programmed, contour, *moved);
