@@ -86,10 +86,21 @@ TEST(FanucWords, of_okuma_that_have_none_are_refused) {
     EXPECT_NE(fault(kOkuma + "CALL OO88 PX=4 PH=1 PP=2\n", OtherControl::okuma).find("'CALL'"),
               std::string::npos);
     EXPECT_NE(fault(kOkuma + "CALL OO88 HP=4\n", OtherControl::okuma).find("'CALL'"), std::string::npos);
-    EXPECT_NE(fault(kOkuma + "CALL O1001 PX=4\n", OtherControl::okuma).find("CALL"), std::string::npos);
+    EXPECT_NE(fault(kOkuma + "CALL O1001 VC1=4\n", OtherControl::okuma).find("CALL"), std::string::npos);
 }
 
 const std::string kFagor = "%PIECE,MX,\nN10 G90 G71 G17 F100 S500 M3\nN20 G0 X0 Y0 Z5\n";
+
+TEST(FanucWords, of_okuma_hand_values_to_the_programs_that_they_call) {
+    // Lines of 5 and 7 mm along X, each at its depth; the names of the caller keep their values.
+    const motion::Program program =
+        read(kOkuma +
+                 "VC1=2\nLEN=40\nCALL OLINE LEN=5 DP=VC1 * 2 (FIRST)\nCALL OLINE Q2 DP=VC1 LEN=[VC1+5]\n"
+                 "G1 Z=-LEN\nM2\nOLINE\nG91 G1 Z=-DP\nX=LEN\nZ=DP\nG90\nRTS\n",
+             OtherControl::okuma);
+    EXPECT_NEAR(feed_mm(program), (4 + 5 + 4) + 2 * (2 + 7 + 2) + 45, 1e-12);
+    expect_near(program.moves.back().end.tip_mm, {19, 0, -40});
+}
 
 TEST(FanucWords, of_okuma_shift_turn_and_place_holes) {
     // The coordinates at (10, 0), turned by a quarter: 5 along their X is 5 along Y.
@@ -133,8 +144,8 @@ TEST(FanucWords, of_fagor_mean_what_fagor_means) {
     // What means something else on a Fanuc control is refused by its name: pockets, patterns, the home
     // search.
     for (const char* text :
-         {"G8 R5 Q5\n", "G9 X5 Y5 I1\n", "G93 I1 J1\n", "G69 X1 Z2 I-9\n", "G74 X Y\n",
-          "G87 Z2 I-10 J20 K10 B3\n", "G88 Z2 I-10 J20 B3\n", "G63 X5 Y0 I30 K3\n", "G73 Q90\nG73 Q10\n"}) {
+         {"G8 R5 Q5\n", "G9 X5 Y5 I1\n", "G69 X1 Z2 I-9\n", "G74 X Y\n", "G87 Z2 I-10 J20 K10 B3\n",
+          "G88 Z2 I-10 J20 B3\n", "G63 X5 Y0 I30 K3\n", "G73 Q90\nG73 Q10\n"}) {
         EXPECT_NE(fault(kFagor + text, OtherControl::fagor).find("of Fagor controls"), std::string::npos)
             << text;
     }
@@ -186,6 +197,25 @@ TEST(FanucWords, of_fagor_have_arcs_by_centre_and_by_three_points) {
 // What begins the programs of both below.
 const std::string kNum = "%1000\n(PLATE)\nG71 G90 G17 G40 G80 D1\nF100 S500 M03\nG0 X0 Y0 Z5\n";
 const std::string kNumInFanuc = "O1000\nG21 G90 G17\nF100 S500 M3\nG0 X0 Y0 Z5\n";
+
+// Fagor 8055 M/EN programming manual, pages 48 and 90.
+TEST(FanucWords, of_fagor_have_polar_coordinates) {
+    const std::string start = "G90 G21 G17 F100 S500 M3\nG0 X0 Y0 Z5\n";
+    const std::string cartesian = start + "G0 X60 Y40\nG1 Z-1\nG3 X110 Y90 I0 J50\nG3 X160 Y40 I50 J0\n";
+    expect_same(kFagor + "G0 X60 Y40\nG1 Z-1\nG90 G17 G03 Q0 I0 J50\nQ-90 I50 J0\n", OtherControl::fagor,
+                cartesian);
+    expect_same(kFagor + "G0 X60 Y40\nG1 Z-1\nG93 I60 J90\nG03 Q0\nG93 I160 J90\nQ-90\n", OtherControl::fagor,
+                cartesian);
+    // About the zero: lines and arcs; about the place of the tool; by increments and parameters.
+    expect_same(kFagor + "G1 R100 Q0\nG3 Q30\nG1 R50\nG3 Q90 Z4\nG93\nG1 R10 Q180\n(P1=10)\nR=P1*2 Q0\n",
+                OtherControl::fagor,
+                start +
+                    "G1 X100\nG3 X[100*COS[30]] Y50 R100\nG1 X[50*COS[30]] Y25\nG3 X0 Y50 Z4 R50\n"
+                    "G1 X-10\nX20\n");
+    expect_same(kFagor + "G1 R20 Q0\nG91 R10 Q90\nG3 Q90\nG90 G1 X0 Y0\n", OtherControl::fagor,
+                start + "G1 X20\nX0 Y30\nG3 X-30 Y0 R30\nG1 X0\n");
+    EXPECT_NE(fault(kFagor + "G18 G1 R20 Q0\n", OtherControl::fagor).find("FAGORPOLAR"), std::string::npos);
+}
 
 TEST(FanucWords, of_num_have_variables_jumps_and_calls) {
     // A loop of three steps, lines again, a subprogram twice, a name, a word without a number.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "readers/control/block_text.hpp"
@@ -14,8 +15,19 @@ namespace tribo::readers {
 namespace {
 
 // Variables of Fanuc that stand for VC0 .. or P0 .., for other names, and lines that stand for labels.
-constexpr int kFirstVariable = 500, kFirstName = 100, kFirstLabel = 90'000, kFirstProgram = 7000;
-constexpr int kMostVariables = 300, kMostNames = 100;
+constexpr int kFirstVariable = 500, kFirstLabel = 90'000, kFirstProgram = 7000;
+constexpr int kMostVariables = 300, kLastLocal = 33;
+
+// The letters by which G65 sets #1 and on in the program that it calls; not I J K, whose order counts.
+struct Argument {
+    char letter;
+    int variable;
+};
+constexpr std::array kArguments{Argument{'A', 1},  Argument{'B', 2},  Argument{'C', 3},  Argument{'D', 7},
+                                Argument{'E', 8},  Argument{'F', 9},  Argument{'H', 11}, Argument{'M', 13},
+                                Argument{'Q', 17}, Argument{'R', 18}, Argument{'S', 19}, Argument{'T', 20},
+                                Argument{'U', 21}, Argument{'V', 22}, Argument{'W', 23}, Argument{'X', 24},
+                                Argument{'Y', 25}, Argument{'Z', 26}};
 
 class Translator {
   public:
@@ -28,6 +40,9 @@ class Translator {
             if (!name.empty())
                 programs_.try_emplace(name, kFirstProgram + static_cast<int>(programs_.size()));
         }
+        TextLines again(bytes);
+        for (auto line = again.next(); is_okuma_ && line; line = again.next())
+            name_arguments(without_blanks_of_formulas(upper(*line)));
     }
 
     std::string line(std::string_view text) {
@@ -52,9 +67,10 @@ class Translator {
         }
         const std::size_t head = out_.size();
         has_centre_ = has_absolute_centre_ = false;
+        const std::string behind = is_okuma_ ? std::string() : polar_words();
         while (at_ < in_.size()) word();
         if (says_centres_ && has_centre_) out_.insert(head, has_absolute_centre_ ? "G90.1 " : "G91.1 ");
-        return out_;
+        return out_ + behind;
     }
 
   private:
@@ -103,9 +119,42 @@ class Translator {
         if (!known.empty()) at_ += name.size();
         return known;
     }
+    // Names of local variables that CALL sets in the program that it calls: CALL O100 XX=5 YY=VC1.
+    void name_arguments(const std::string& text) {
+        const std::size_t call = text.find("CALL"), begin_of_name = text.find('O', call);
+        if (call == std::string::npos || begin_of_name == std::string::npos) return;
+        std::size_t end_of_name = begin_of_name;
+        while (end_of_name < text.size() && is_name(text[end_of_name])) ++end_of_name;
+        const std::string program = program_of(text.substr(begin_of_name, end_of_name - begin_of_name));
+        if (program.empty() || is_of_machine(program)) return;
+        for (std::size_t at = text.find('=', call); at != std::string::npos; at = text.find('=', at + 1)) {
+            std::size_t begin = at;
+            while (begin > call && is_name(text[begin - 1])) --begin;
+            const std::string name = text.substr(begin, at - begin);
+            if (name.size() > 1 && is_letter(name[1]) && variable(name).empty() &&
+                names_.size() < kArguments.size())
+                names_.emplace(name, kArguments[names_.size()].variable);
+        }
+    }
+    // The word of G65 for an argument, with the cursor at its name; empty: none is there.
+    std::string take_argument() {
+        const std::string name = name_at(at_);
+        const auto known = names_.find(name);
+        if (known == names_.end()) return {};
+        const auto argument = std::ranges::find(kArguments, known->second, &Argument::variable);
+        if (argument == kArguments.end() || at_ + name.size() >= in_.size() || in_[at_ + name.size()] != '=')
+            return {};
+        at_ += name.size() + 1;
+        return argument->letter + ("[" + formula(" (;") + "]");
+    }
+    // Each program has its own variables by name, as #1 to #33 are.
     std::string define(const std::string& name) {
-        if (names_.size() < kMostNames)
-            names_.try_emplace(name, kFirstName + static_cast<int>(names_.size()));
+        for (int number = 1; number <= kLastLocal; ++number) {
+            if (std::ranges::any_of(names_, [&](const auto& known) { return known.second == number; }))
+                continue;
+            names_.emplace(name, number);
+            break;
+        }
         return variable(name);
     }
     // A formula up to `ends` outside of its brackets, with the variables of Fanuc.
@@ -227,19 +276,26 @@ class Translator {
             at_ += name.size();
             if (name == "OO88" && !is_modal && fixture_offset()) return true;
             if (!program.empty()) {
-                skip_blanks();
-                std::string times;
-                if (takes("Q")) {
+                std::string times, arguments;
+                const auto at_end = [&] {
+                    skip_blanks();
+                    return at_ >= in_.size() || in_[at_] == '(' || in_[at_] == ';';
+                };
+                // One of the machine's own is not at hand.
+                if (is_of_machine(program)) at_ = std::min(in_.find_first_of("(;", at_), in_.size());
+                for (bool goes_on = true; goes_on && !at_end();) {
+                    const std::string argument = take_argument();
+                    arguments += argument;
+                    goes_on = !argument.empty();
+                    if (goes_on || in_[at_] != 'Q' || digits_at(in_, at_ + 1).empty()) continue;
+                    ++at_;
                     times = std::string(digits_at(in_, at_));
                     at_ += times.size();
+                    goes_on = true;
                 }
-                skip_blanks();
-                // Arguments set variables of the called program, which have no place here. One of the
-                // machine's own is not at hand.
-                if (program.size() == 4 && program >= "8000")
-                    at_ = std::min(in_.find_first_of("(;", at_), in_.size());
-                if (at_ >= in_.size() || in_[at_] == '(' || in_[at_] == ';') {
-                    out_ += (is_modal ? "G66P" : "M98P") + program + (times.empty() ? "" : "L" + times);
+                if (at_end()) {
+                    out_ += (is_modal ? "G66P" : "G65P") + program + (times.empty() ? "" : "L" + times) +
+                            arguments;
                     return true;
                 }
             }
@@ -270,6 +326,7 @@ class Translator {
         return false;
     }
 
+    static bool is_of_machine(std::string_view program) { return program.size() == 4 && program >= "8000"; }
     // The number of a program that is called: O100, OCHCK of this file, OO10 of the machine's maker; else
     // empty.
     std::string program_of(const std::string& name) const {
@@ -426,6 +483,13 @@ class Translator {
 
     // The same as a formula; empty: the block has no such word.
     std::string take_value(char letter) {
+        const std::size_t found = in_.find(letter, at_);
+        if (from(in_, found).substr(0, 2).ends_with('=')) {
+            const std::size_t start = std::exchange(at_, found + 2);
+            const std::string value = formula(" ");
+            in_.erase(found, std::exchange(at_, start) - found);
+            return "[" + value + "]";
+        }
         std::string word = take_word(letter);
         if (word.empty()) return {};
         const bool is_negative = word[0] == '-';
@@ -444,6 +508,54 @@ class Translator {
                                                    : "[#4003 EQ 90]",
                           value = take_value(letter);
         return value.empty() ? "0" : "[" + value + "-" + place + "*" + absolute + "]";
+    }
+
+    bool has_code(std::string_view code) const {
+        const std::size_t end = in_.find('(');
+        for (std::size_t at = in_.find('G'); at < std::min(end, in_.size()); at = in_.find('G', at + 1)) {
+            const std::size_t zeros = at + 1 < in_.size() && in_[at + 1] == '0' ? 1 : 0;
+            if (digits_at(in_, at + 1 + zeros) == code) return true;
+        }
+        return false;
+    }
+
+    // R Q: a place by radius and angle about the pole of G93, or about I J from the start of an arc. The
+    // words of Fanuc, which stand for it at the end of the block: the pole is #980 #981, the last radius and
+    // angle #982 #983.
+    std::string polar_words() {
+        for (const std::string_view code : {"0", "1", "2", "3"}) {
+            if (has_code(code)) is_arc_ = code == "2" || code == "3";
+        }
+        if (has_code("17")) is_other_plane_ = false;
+        if (has_code("18") || has_code("19")) is_other_plane_ = true;
+        const auto has = [&](char letter) {
+            return in_.find(letter, at_) < std::min(in_.find_first_of("(;", at_), in_.size());
+        };
+        const bool is_other = has_code("73") || has_code("36") || has_code("39") || has_code("8") ||
+                              has_code("9") || has('X') || has('Y') || has_code("81") || has_code("82") ||
+                              has_code("84") || has_code("85") || has_code("86") || has_code("89");
+        if (is_other || !(has('Q') || (has('R') && !is_arc_))) return {};
+        if (is_other_plane_) return "FAGORPOLAR";
+        const std::string relative = has_code("91") ? "1" : has_code("90") ? "0" : "[1-[#4003 EQ 90]]";
+        const auto take = [&](char letter) { return has(letter) ? take_value(letter) : std::string(); };
+        std::string radius = take('R'), angle = take('Q');
+        angle = angle.empty() ? "#983" : "[" + angle + "+#983*" + relative + "]";
+        std::string x = "#980", y = "#981", centre;
+        if (is_arc_) {
+            const std::string i = take('I'), j = take('J');
+            if (!i.empty() || !j.empty()) {
+                x = "[#5041+" + (i.empty() ? "0" : i) + "]";
+                y = "[#5042+" + (j.empty() ? "0" : j) + "]";
+            }
+            const std::string to_x = "[" + x + "-#5041]", to_y = "[" + y + "-#5042]";
+            radius = "SQRT[" + to_x + "*" + to_x + "+" + to_y + "*" + to_y + "]";
+            centre = " G91.1 I" + to_x + " J" + to_y;
+        } else {
+            radius = radius.empty() ? "#982" : "[" + radius + "+#982*" + relative + "]";
+        }
+        return " X[" + x + "+" + radius + "*COS[" + angle + "]-#5041*" + relative + "] Y[" + y + "+" +
+               radius + "*SIN[" + angle + "]-#5042*" + relative + "]" + centre + " #982=" + radius +
+               " #983=" + angle;
     }
 
     // An arc to X Y that goes on in the direction of the move before it: #99901 and on (gcode/text/
@@ -525,9 +637,9 @@ class Translator {
     bool turns_again() const { return is_turned_ && in_.find('Q', at_) != std::string::npos; }
 
     void fagor_code(const std::string& number) {
-        constexpr std::array<std::string_view, 24> refused{"20", "37", "38", "60", "61", "62", "63", "64",
+        constexpr std::array<std::string_view, 23> refused{"20", "37", "38", "60", "61", "62", "63", "64",
                                                            "65", "66", "67", "68", "69", "72", "74", "75",
-                                                           "76", "77", "78", "79", "83", "87", "88", "93"};
+                                                           "76", "77", "78", "79", "83", "87", "88"};
         constexpr std::array<std::string_view, 6> cycles{"81", "82", "84", "85", "86", "89"};
         const bool is_refused = std::find(refused.begin(), refused.end(), number) != refused.end();
         if (number == "73" && !turns_again()) {  // the coordinates turn by Q about I J; alone: no longer
@@ -538,6 +650,18 @@ class Translator {
                         : "G68X" + (x.empty() ? "0" : x) + "Y" + (y.empty() ? "0" : y) + "R" + angle;
         } else if (is_refused || number == "73") {
             out_ += "FAGORG" + number;  // means something else on a Fanuc control: refused by this name
+        } else if (number == "93") {    // the pole: at I J, or where the tool is
+            const std::string x = take_value('I'), y = take_value('J');
+            const bool is_here = x.empty() && y.empty();
+            out_ += "#980=" +
+                    (is_here     ? "#5041"
+                     : x.empty() ? "0"
+                                 : x) +
+                    " #981=" +
+                    (is_here     ? "#5042"
+                     : y.empty() ? "0"
+                                 : y) +
+                    " ";
         } else if (number == "6") {
             has_absolute_centre_ = true;
         } else if (number == "8") {
@@ -564,6 +688,7 @@ class Translator {
     bool is_okuma_, says_centres_;
     bool has_centre_ = false, has_absolute_centre_ = false;  // of the block
     bool cycle_on_ = false, is_turned_ = false;
+    bool is_arc_ = false, is_other_plane_ = false;  // of the last G0 to G3, and of G17 to G19
     std::string in_, out_;
     std::size_t at_ = 0;
     std::map<std::string, int> names_, labels_, programs_;
