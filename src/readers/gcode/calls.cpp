@@ -88,13 +88,6 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
     return true;
 }
 
-const Word* macro_call_in(const Block& block) {
-    for (const Word& word : block.words) {
-        if (word.letter == 'G' && (word.value == 65 || word.value == 66)) return &word;
-    }
-    return nullptr;
-}
-
 Result<MacroCall> read_macro_call(const Block& block, const Word& code, const Output& output) {
     const std::string name = code_text('G', static_cast<int>(code.value) * 10);
     MacroCall call;

@@ -21,8 +21,6 @@ struct MacroCall {
     Flow::Arguments arguments{};
 };
 
-// Returns the G65 or G66 of the block; null if it has none.
-const Word* macro_call_in(const Block& block);
 // Reads the block of a G65 or G66: words behind it are arguments.
 Result<MacroCall> read_macro_call(const Block& block, const Word& code, const Output& output);
 Result<void> call_macro(const MacroCall& call, int line, State& state, Flow& flow, Output& output);

@@ -56,6 +56,7 @@ TEST(GcodeMacro, PassesArguments) {
     const std::string sub = "M30\nO9\nX#24 Y#25 Z#26\nM99\n";
     EXPECT_NEAR(feed_of("G65 P9 X3 Y4 Z12\n" + sub), 13, 1e-12);
     EXPECT_NEAR(feed_of("G65 P9 X3\n" + sub), 3, 1e-12);  // the others are vacant
+    EXPECT_NEAR(feed_of("G65P9X3.E4.Y4.\n" + sub), 5, 1e-12);
     // All letters, and a second set of I J K.
     EXPECT_DOUBLE_EQ(
         end_x(

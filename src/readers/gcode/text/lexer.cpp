@@ -27,6 +27,13 @@ std::string code_of_another(std::string_view name) {
 
 }  // namespace
 
+const Word* macro_call_in(const Block& block) {
+    for (const Word& word : block.words) {
+        if (word.letter == 'G' && (word.value == 65 || word.value == 66)) return &word;
+    }
+    return nullptr;
+}
+
 Lexer::Lexer(std::string_view bytes, std::string source_name, bool skip_deletable,
              const Parameters& parameters)
     : lines_(bytes),
@@ -274,8 +281,9 @@ Result<void> Lexer::read_word(Block& block) {
     }
     ++cursor_.at;
     const char letter = to_upper(c);
-    // X1.2E-5 may be a number of other systems, X1.2 E-5 is not.
-    if (letter == 'E' && start > 0 && (is_digit(cursor_.line[start - 1]) || cursor_.line[start - 1] == '.')) {
+    // X1.2E-5 may be a number of other systems, X1.2 E-5 is not; E is also an argument: G65 P1 K1.E100.
+    if (letter == 'E' && start > 0 && macro_call_in(block) == nullptr &&
+        (is_digit(cursor_.line[start - 1]) || cursor_.line[start - 1] == '.')) {
         return cursor_.refuse(start, "E follows a number without a blank, like an exponent",
                               "write the number without exponent, or a blank before E");
     }

@@ -56,6 +56,9 @@ struct Block {
     std::vector<std::string_view> comments;
 };
 
+// Returns the G65 or G66 of the block; null if it has none.
+const Word* macro_call_in(const Block& block);
+
 // The blocks of one text. next() reuses its block, so that a file of short lines needs no allocation per
 // line.
 class Lexer {
