@@ -337,6 +337,18 @@ Result<void> Interpreter::call_cycle(LineReader& in) {
     return run_at(pattern_, where);
 }
 
+// A cycle with heights of its own is often called where X and Y are stated and Z is not: behind M140 MB MAX
+// or M91. The tool then comes from its second clearance.
+void Interpreter::come_from_above() {
+    const bool stands_over = path_.known(0) == Known::yes && path_.known(1) == Known::yes;
+    if (!stands_over || path_.known(2) == Known::yes) return;
+    const bool is_contour = is_contour_cycle(cycle_.number);
+    if (!is_contour && (cycle_.number < 200 || is_face(cycle_.number))) return;
+    Vec3 above = path_.tip();
+    above.z = is_contour ? contour_depths().back : cycle_.at(203) + std::max(cycle_.at(200), cycle_.at(204));
+    path_.put(above, {Known::yes, Known::yes, Known::yes}, line_.number);
+}
+
 Result<void> Interpreter::run_cycle(Place where) {
     if (cycle_.number == 0) {
         return path_.refuse(where, "a cycle is called, but none is defined", "write CYCL DEF before it");
@@ -346,6 +358,7 @@ Result<void> Interpreter::run_cycle(Place where) {
     if (is_of_machine(cycle_.number) || cycle_.number == kEngraving) return leave_out_cycle(cycle_.number);
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
+    come_from_above();
     if (is_lost()) {
         leave_out();
         return {};

@@ -220,6 +220,7 @@ class Interpreter {
     Result<void> check_cycle(const Cycle& cycle) const;
     Result<void> read_parameters(LineReader& in, Cycle& cycle);
     Result<void> call_cycle(LineReader& in);
+    void come_from_above();
     Result<void> run_cycle(Place place);
     Result<void> go_to_height(double z, double feed_mm_per_min);
     Result<void> go_to_place(double x, double y, double feed_mm_per_min);

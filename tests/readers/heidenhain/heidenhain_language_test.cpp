@@ -164,6 +164,28 @@ TEST(HeidenhainLanguage, DrillsInPatterns) {
     }
 }
 
+TEST(HeidenhainLanguage, CallsACycleWhereOnlyXAndYAreStated) {
+    const std::string cycle = "CYCL DEF 201 Q200=2 Q201=-5 Q206=100 Q203=+10 Q204=30\n";
+    for (const char* before : {"M140 MB MAX\n", "L Z-1 R0 FMAX M91\n", "L X-1 Y-1 Z-1 R0 FMAX M92\n"}) {
+        const motion::Program program =
+            conversational(after_start(before + cycle + "L X+20 Y+5 R0 FMAX M99\nX+40 M99\n"));
+        std::vector<Vec3> holes;
+        for (const motion::Move& move : program.moves) {
+            if (move.kind == motion::MoveKind::feed && move.end.tip_mm.z < 6)
+                holes.push_back(move.end.tip_mm);
+        }
+        ASSERT_EQ(holes.size(), 2U) << before;
+        expect_near(holes[0], {20, 5, 5});
+        expect_near(holes[1], {40, 5, 5});
+        EXPECT_EQ(program.moves.back().end.tip_mm.z, 40);
+    }
+    // A cycle that begins where the tool is has no height there.
+    const motion::Program old = conversational(
+        after_start("M140 MB MAX\nCYCL DEF 1.0 PECKING\nCYCL DEF 1.1 SETUP 2\nCYCL DEF 1.2 DEPTH -5\nCYCL "
+                    "DEF 1.3 PECKG 5\nCYCL DEF 1.4 DWELL 0\nCYCL DEF 1.5 F50\nL X+20 Y+5 R0 FMAX M99\n"));
+    EXPECT_EQ(feed_mm(old), 0);
+}
+
 TEST(HeidenhainLanguage, PecksDeepAndTapsAndCentres) {
     const motion::Program deep = conversational(after_start(
         "CYCL DEF 205 UNIVERSAL PECKING ~\nQ200=2 ~\nQ201=-10 ~\nQ206=150 ~\nQ202=6 ~\nQ203=+0 ~\nQ204=2 ~\n"
