@@ -66,6 +66,10 @@ class TextReader {
         const ShapeWords shape = shape_in(text_);
         tool_.shape = shape.shape;
         tool_.names_tool = shape.names_tool;
+        if (ends_with_end_mill()) {
+            tool_.names_tool = true;
+            if (tool_.shape == ToolShape::unstated) tool_.shape = ToolShape::flat;
+        }
         for (std::size_t i = 0; i < tokens_.size();) i += take(i);
         finish();
         return tool_;
@@ -77,6 +81,13 @@ class TextReader {
         return i < tokens_.size() ? tokens_[i] : none;
     }
     bool is_end(std::size_t i) const { return i >= tokens_.size(); }
+
+    // 1/2 EM, 10MM 4FL EM: an end mill, where a size stands first. Elsewhere EM is a word of Portuguese.
+    bool ends_with_end_mill() const {
+        if (tokens_.size() < 2 || !tokens_.back().is_word("EM")) return false;
+        const std::size_t first = tokens_[0].is_word("T") && token(1).is_glued ? 2 : 0;
+        return token(first).is_number() || (token(first).is_sign('-') && token(first + 1).is_number());
+    }
 
     // Returns the place of the number behind a key: `=`, `:`, `.`, `-`, `>` and `_` may stand between; or the
     // number of tokens if there is none.

@@ -168,7 +168,7 @@ TEST(HeidenhainLanguage, CallsACycleWhereOnlyXAndYAreStated) {
     const std::string cycle = "CYCL DEF 201 Q200=2 Q201=-5 Q206=100 Q203=+10 Q204=30\n";
     for (const char* before : {"M140 MB MAX\n", "L Z-1 R0 FMAX M91\n", "L X-1 Y-1 Z-1 R0 FMAX M92\n"}) {
         const motion::Program program =
-            conversational(after_start(before + cycle + "L X+20 Y+5 R0 FMAX M99\nX+40 M99\n"));
+            conversational(after_start(before + cycle + "L X+20 Y+5 R0 FMAX M99\nL X+40 FMAX M99\n"));
         std::vector<Vec3> holes;
         for (const motion::Move& move : program.moves) {
             if (move.kind == motion::MoveKind::feed && move.end.tip_mm.z < 6)

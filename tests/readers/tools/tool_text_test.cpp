@@ -97,6 +97,9 @@ const Form kForms[] = {
     {"T12 FACE MILL 50", 12, face, 50, 1, 0, 0, 0},
     {"T2 12 ENDMILL", 2, flat, 12, 1, 0, 0, 0},
     {"T8 TAP M8X1.25", 8, tap, 8, 1, 0, 0, 0},
+    {"1/2 EM", kNoNumber, flat, 0.5, 25.4, 0, 0, 0},
+    {"T4 10MM 3 FL EM", 4, flat, 10, 1, 0, 0, 3},
+    {"3/8 BALL EM", kNoNumber, ball, 0.375, 25.4, 0, 0, 0},
 };
 
 TEST(ToolText, reads_the_forms_of_cam_systems_and_people) {
@@ -136,6 +139,8 @@ TEST(ToolText, takes_nothing_from_texts_about_other_things) {
                              "FEED 300 MM/MIN",
                              "tool change at 0.0000  0.0000  10.0000 ",
                              "MILL 1.5 DEEP",
+                             "DESBASTE EM 10MM",
+                             "CAVIDADE 10MM EM",
                              "T5 ENDMILL 2",
                              "T5 DRILL 5",
                              "T5 DRILL 4 HOLES",
