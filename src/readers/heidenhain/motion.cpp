@@ -83,6 +83,9 @@ Result<Vec3> Interpreter::rotary_target(const Words& words) {
         const auto i = static_cast<std::size_t>(k);
         if (!words.rotary[i] && !words.turn[i]) continue;
         const std::string letter(1, kRotary[i]);
+        // At zero there is nothing to turn.
+        const bool turns = words.rotary[i].value_or(0) != 0 || words.turn[i].value_or(0) != 0;
+        if (!path_.machine && !turns && !path_.program.has_rotary_words) continue;
         path_.note_machine_needed(line_.number, "rotary axes (A B C) mean nothing");
         if (!path_.machine) continue;
         if (!path_.machine->has_axis(kRotary[i])) {

@@ -212,6 +212,11 @@ TEST(GcodeReader, NotesRotaryWordsOnceAndKeepsTheLinearPath) {
     EXPECT_TRUE(warns_of(program, 3, "rotary"));
     EXPECT_EQ(program.warnings.size(), 1U);
     EXPECT_FALSE(program_of("G21 G0 X0 Y0 Z0\nX1").has_rotary_words);
+    // At zero, as in programs of posts for four axes, there is nothing to turn.
+    const Program zero = program_of("G21 M3 F100\nG28 A0\nG0 X0 Y0 Z0 A0. C0\nG1 X1 A0.\n");
+    EXPECT_FALSE(zero.has_rotary_words);
+    EXPECT_FALSE(warns_of(zero, 3, "rotary"));
+    EXPECT_EQ(program_of("G21 M3 F100\nG0 X0 Y0 Z0 A0\nG1 X1 A5\n").first_rotary_line, 3);
 }
 
 TEST(GcodeReader, WarnsOfEachAssumptionOnce) {

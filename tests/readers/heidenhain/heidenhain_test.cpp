@@ -288,6 +288,7 @@ TEST(Heidenhain, LeadsTheToolAlongVectorsWithAndWithoutAMachine) {
 TEST(Heidenhain, NotesRotaryWordsWithoutAMachine) {
     const motion::Program program = conversational(after_start("3 L A+10 C+20 FMAX\n4 L X+5 F100 M128\n"));
     EXPECT_TRUE(program.has_rotary_words);
+    EXPECT_FALSE(conversational(after_start("3 L A+0 C+0 FMAX\n4 L X+5 F100\n")).has_rotary_words);
     EXPECT_EQ(program.first_rotary_line, 4);
     EXPECT_TRUE(warns_of(program, 4, "without a machine"));
 }

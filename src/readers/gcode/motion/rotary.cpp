@@ -218,8 +218,13 @@ Result<void> read_rotary_words(Command& command, State& state, Output& output) {
         if (auto done = read_vector(command, state, output); !done) return done;
     }
     if (!output.machine) {
-        if (!command.has_any("ABC")) return {};
-        for (const char letter : {'A', 'B', 'C'}) command.use(letter);
+        bool turns = false;
+        for (const char letter : {'A', 'B', 'C'}) {
+            const Word* word = command.use(letter);
+            turns = turns || (word != nullptr && (word->value != 0 || output.program.has_rotary_words));
+        }
+        // At zero there is nothing to turn; posts for four axes write A0 into programs of three.
+        if (!turns) return {};
         note_machine_needed(command, output);
         if (output.first(Note::rotary_words)) {
             output.warn(command.line(),
