@@ -188,8 +188,9 @@ Result<void> Interpreter::bore_back() {
     if (path_.first(kBackBoring)) {
         path_.warn(
             cycle_.place.line,
-            "cycle 204 leads a boring bar through its hole with a spindle that stands: the cutter counts "
-            "as turning there, and touches the hole if it is wider than that");
+            "cycle 204 leads a boring bar through its hole aside of the middle, with a spindle that "
+            "stands: the cutter counts as turning, with edges all along, and mills the hole wider, unless "
+            "the job gives it a profile");
     }
     if (auto done = go_to_height(clearance, kRapid); !done) return done;
     if (auto done = go_to_place(aside.x, aside.y, positioning); !done) return done;
