@@ -12,13 +12,14 @@ namespace {
 
 constexpr std::string_view kAxes = "XYZ", kParallel = "UVW", kRotary = "ABC", kCentres = "IJK";
 
-// Addresses without effect on the path: feeds of single axes and corners, smoothing, speeds, limits.
+// Addresses without effect on the path: feeds of single axes and corners, smoothing, speeds, limits. DISR and
+// its like size the ways of G147 and on, which are refused by these codes.
 constexpr std::string_view kSilent[] = {
-    "ADIS",   "ADISPOS", "STOLF",   "OTOL",   "CTOL",   "ATOL",   "CTOLG0", "FRC",  "FRCM",  "FD",
-    "FDA",    "FP",      "OVR",     "OVRRAP", "OVRA",   "SPOS",   "SPOSA",  "LIMS", "SVC",   "DL",
-    "DITS",   "DITE",    "VELOLIM", "ACC",    "FA",     "FL",     "FXS",    "SF",   "ANGLE", "DISC",
-    "SCC",    "TOWER",   "MTL",     "SR",     "SRA",    "ST",     "STA",    "G",    "FMA",   "JERKLIM",
-    "ACCLIM", "DISCL",   "ORIRES",  "CUTMOD", "OTOLG0", "SCPARA",
+    "ADIS",   "ADISPOS", "STOLF",   "OTOL",   "CTOL",   "ATOL",   "CTOLG0", "FRC",   "FRCM",  "FD",
+    "FDA",    "FP",      "OVR",     "OVRRAP", "OVRA",   "SPOS",   "SPOSA",  "LIMS",  "SVC",   "DL",
+    "DITS",   "DITE",    "VELOLIM", "ACC",    "FA",     "FL",     "FXS",    "SF",    "ANGLE", "DISC",
+    "SCC",    "TOWER",   "MTL",     "SR",     "SRA",    "ST",     "STA",    "G",     "FMA",   "JERKLIM",
+    "ACCLIM", "DISCL",   "ORIRES",  "CUTMOD", "OTOLG0", "SCPARA", "DISR",   "DISRP", "FAD",
 };
 
 constexpr std::pair<std::string_view, Measure> kMeasures[] = {
