@@ -56,7 +56,10 @@ std::string code_text(char letter, int tenths) {
 }
 
 Result<void> Command::add_g(const Word& word) {
-    const auto tenths = tenths_of(word.value);
+    auto tenths = tenths_of(word.value);
+    // Taps with the spindle in step, in the tape format of Fanuc's series 15.
+    if (tenths == 842) tenths = 840;
+    if (tenths == 843) tenths = 740;
     const auto group = tenths ? group_of_g(*tenths) : std::nullopt;
     if (!group) return refuse_code(line_, word, tenths, unread_g(tenths.value_or(-1)));
     auto& place = g_[static_cast<std::size_t>(*group)];
