@@ -289,7 +289,9 @@ class TextReader {
         const std::size_t before = i > 1 && is_joint(token(i - 1)) ? i - 2 : i - 1;
         const std::size_t after = is_joint(token(i + 1)) ? i + 2 : i + 1;
         const bool follows = i > 0 && is_noun(token(before)), leads = is_noun(token(after));
-        if (!(is_name_ || tool_.number) || !(follows || leads)) return;
+        // HOLE-CENTERS-T3-4 - DRILL is the name of an operation: a tool's text begins with its number.
+        const bool is_about_it = is_name_ || (tool_.number && number_at_ <= 1);
+        if (!is_about_it || !(follows || leads)) return;
         if (!number.is_integer) {
             set_diameter(number, Plainness::size);
             return;

@@ -142,6 +142,7 @@ TEST(ToolText, takes_nothing_from_texts_about_other_things) {
                              "DESBASTE EM 10MM",
                              "CAVIDADE 10MM EM",
                              "T5 ENDMILL 2",
+                             "HOLE-CENTERS-T3-4 - DRILL",
                              "T5 DRILL 5",
                              "T5 DRILL 4 HOLES",
                              "DRILL 6.8"}) {
