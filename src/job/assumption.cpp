@@ -88,7 +88,7 @@ Job job_of_program(const std::string& file, PathKind kind, const ProgramInputs& 
     return job;
 }
 
-AssumedTools::AssumedTools(std::vector<int> numbers, const motion::Program& program)
+AssumedTools::AssumedTools(const std::vector<int>& numbers, const motion::Program& program)
     : source_(program.source) {
     for (const int number : numbers) tools_.push_back({number, 0, {}});
     if (tools_.empty()) return;
@@ -134,13 +134,16 @@ void AssumedTools::say(Warnings& warnings) const {
         const std::string which = first.number == 0 ? "the tool is"
                                   : count == 1      ? "tool " + names + " is"
                                                     : "the tools " + names + " are";
-        const std::string why = size == 0 ? std::string() : ", since a larger one is refused at " + refusal;
-        warnings.push_back(
-            {source_, 0,
-             which + " not described: a flat end mill of " + format_decimal(first.diameter_mm) + " mm with " +
-                 std::to_string(first.flutes) + " flutes is assumed" + (count == 1 ? "" : " for each") + why +
-                 "; write --tool \"" + tool_words(first) + (count == 1 ? "\"" : "\" and so on") +
-                 ", or a [[cutter]] into a job"});
+        std::string text = which + " not described: a flat end mill of ";
+        text += format_decimal(first.diameter_mm);
+        text += " mm with ";
+        text += std::to_string(first.flutes);
+        text += " flutes is assumed";
+        if (count > 1) text += " for each";
+        if (size > 0) text += ", since a larger one is refused at " + refusal;
+        text += "; write --tool \"" + tool_words(first);
+        text += count == 1 ? "\"" : "\" and so on";
+        warnings.push_back({source_, 0, text + ", or a [[cutter]] into a job"});
     }
 }
 
@@ -155,7 +158,7 @@ Result<AssumedTools> take_tools(Job& job, const motion::Program& program, Warnin
         });
         if (!is_described) unknown.push_back(number);
     }
-    return AssumedTools(std::move(unknown), program);
+    return AssumedTools(unknown, program);
 }
 
 Result<void> assume_stock(Job& job, const motion::Program& program, const ProgramInputs& inputs,

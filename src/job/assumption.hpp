@@ -21,7 +21,7 @@ Job job_of_program(const std::string& file, PathKind kind, const ProgramInputs& 
 class AssumedTools {
   public:
     AssumedTools() = default;
-    AssumedTools(std::vector<int> numbers, const motion::Program& program);
+    AssumedTools(const std::vector<int>& numbers, const motion::Program& program);
 
     bool empty() const { return tools_.empty(); }
     // Appends the tools to the job's.
