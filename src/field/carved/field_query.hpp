@@ -22,6 +22,8 @@ struct FieldQuery {
     // If all nodes of a brick are farther than this from material (in cells), there is no material between
     // them either: half the diagonal of a cell.
     static constexpr double kClearCells = 0.8661;
+    // Distances at nodes are floats. Their error is less than this share of a cell.
+    static constexpr double kRounding = 1e-3;
 
     Vec3 origin_mm;
     double cell_mm = 1, per_cell = 1, near_mm = 1;
@@ -81,7 +83,8 @@ struct FieldQuery {
         return {-s.distance_mm, -s.gradient, id};
     }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
-    contact::SurfaceSample nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;
+    contact::SurfaceSample nearest(Vec3 point_mm, double within_mm,
+                                   contact::NearHint& hint) const;  // field_nearest.cpp
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
     // grid gives the answer.
     bool is_material(Vec3 point_mm, double skin_mm) const;

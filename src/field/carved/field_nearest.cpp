@@ -1,0 +1,473 @@
+// SPDX-License-Identifier: MIT
+// The nearest surface to a point in air: followed from the last one, or searched in the bricks around.
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "field/carved/field_query.hpp"
+
+namespace tribo::field {
+namespace {
+
+// A place counts as nearer only if it is nearer by more than this, mm.
+constexpr double kOnSurface = 2e-5;
+// Bricks leave out shapes whose surface others give within an error of searched sweeps: at the border of two
+// bricks the surface has steps of this, mm. Where one shape gives the depth of a point, its surface is meant.
+constexpr double kStep = 7e-5;
+// A step that nothing notices, mm.
+constexpr double kNoStep = 1e-6;
+// Largest number of bricks on each side in a search for the nearest surface.
+constexpr int kMostReach = 6;
+constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
+// kOneWay: two surface points are on different sides if the product of their normals is less. kOneSlope:
+// distances come from one side if they rise by at least this share of the full slope.
+constexpr double kOneWay = 0.5, kOneSlope = 0.97;
+// Nearest places that are this far apart are two places, mm; how much farther than the nearest one others are
+// searched.
+constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
+// The surface that a node represents: radius around it, and largest bulge, in cells.
+constexpr double kAround = 0.87, kBulge = 0.1;
+// A ball at a surface point is proven to be air by balls in the shapes that meet there, larger by the inverse
+// of this share.
+constexpr double kOfInnerBall = 0.9;
+// Longest step of a search along the surface, in cells.
+constexpr double kLongestCells = 2;
+
+// Returns the gradient of the distances at a node by their differences, in mm per cell.
+Vec3 slope_at(const Brick& brick, int a, int b, int c) {
+    const auto at = [&](int i, int j, int k) {
+        return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(i, j, k))]);
+    };
+    const auto up = [](int n) { return std::min(n + 1, kBrickCells); };
+    const auto down = [](int n) { return std::max(n - 1, 0); };
+    return {(at(up(a), b, c) - at(down(a), b, c)) / (up(a) - down(a)),
+            (at(a, up(b), c) - at(a, down(b), c)) / (up(b) - down(b)),
+            (at(a, b, up(c)) - at(a, b, down(c))) / (up(c) - down(c))};
+}
+
+Vec3 clamped(const Box3& box, Vec3 p) {
+    return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
+            std::clamp(p.z, box.min.z, box.max.z)};
+}
+
+// The material according to the brick around a point. If that brick is air or does not exist, one given brick
+// is used instead, so that a point far from the surface still has a distance.
+class NearBrick final : public contact::DistanceField {
+  public:
+    NearBrick(const FieldQuery& field, BrickRef ref) : field_(field), ref_(ref) {}
+    double distance_mm(Vec3 p) const override { return field_.exact(around(p), p).distance_mm; }
+    Vec3 normal(Vec3 p) const override { return sample(p).normal; }
+    contact::SurfaceSample sample(Vec3 p) const override {
+        const FieldQuery::Exact e = field_.exact(around(p), p);
+        return {e.distance_mm, e.shape == 0 ? field_.blank().gradient(p) : -field_.shape(e.shape).gradient(p),
+                e.shape};
+    }
+    contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
+        return field_.sample_piece(piece, p);
+    }
+
+  private:
+    BrickRef around(Vec3 p) const {
+        const BrickCoord b = field_.brick_at(p);
+        const BrickRef ref = field_.bricks.contains(b) ? field_.bricks.get(b) : kAir;
+        return ref == kAir ? ref_ : ref;
+    }
+    const FieldQuery& field_;
+    BrickRef ref_;
+};
+
+}  // namespace
+
+// Returns true if a single shape of the brick proves that there is no material of the brick within the
+// radius.
+bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
+    if (ref == kUntouched) return blank().distance_mm(p) >= radius_mm;
+    const Brick& brick = (*pool)[ref];
+    const auto clears = [&](ShapeId id) {
+        return id == 0 ? blank().distance_mm(p) >= radius_mm
+                       : shape(id).distance_below(p, -radius_mm) < -radius_mm;
+    };
+    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
+    if (likely != Brick::kUnlisted && clears(brick.shapes[likely])) return true;
+    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
+        if (n != likely && clears(brick.shapes[n])) return true;
+    }
+    return false;
+}
+
+// Returns true if the ball around a point whose surface touches the foot point holds no material, by the
+// shapes that meet there and no others. Let the point be at r m from the foot point, m = sum of a_k n_k with
+// a_k >= 0 and n_k the normals of the shapes there. A place y (seen from the foot point) in the ball has
+// y^2 < 2 r m y. Each shape holds a ball of radius rho that touches it there: outside of all of them
+// y^2 >= 2 rho n_k y. Both at once needs rho < r sum of a_k. No bricks have to be searched then.
+bool FieldQuery::is_nearest(const contact::Foot& foot) const {
+    const double r = foot.sample.distance_mm;
+    const contact::HalfSpaces::Cone cone = foot.sides.cone_to(foot.sample.normal);
+    double sum = 0;
+    for (const double weight : cone.weight) sum += weight;
+    const double rho = r * sum / kOfInnerBall;
+    // How much nearer a surface may be, as the sum misses m, and as the balls do not quite touch.
+    double nearer = 0.5 * r * cone.miss * cone.miss / (1 - kOfInnerBall);
+    for (std::size_t n = 0; n < static_cast<std::size_t>(cone.count) && nearer <= kOnSurface; ++n) {
+        const contact::HalfSpace& side = foot.sides.side[static_cast<std::size_t>(cone.index[n])];
+        const Vec3 centre = foot.at_mm + rho * side.normal;
+        const double least = rho - kOnSurface,
+                     inside = side.piece == 0 ? blank().distance_mm(centre)
+                                              : -shape(side.piece).distance_below(centre, -least);
+        if (inside <= least) return false;
+        nearer += cone.weight[n] * std::max(0.0, rho - inside);
+    }
+    return cone.count > 0 && nearer <= kOnSurface;
+}
+
+// The nearest surface point found so far, and the distance of the next one.
+class NearestPlace {
+  public:
+    explicit NearestPlace(double within_mm)
+        : best_{{within_mm, {0, 0, 1}, 0}, {1e300, 0, 0}, {}}, others_mm_(within_mm) {}
+
+    const contact::Foot& best() const { return best_; }
+    double distance_mm() const { return best_.sample.distance_mm; }
+    double others_mm() const { return others_mm_; }
+    void put(const contact::Foot& foot) {
+        const double mm = foot.sample.distance_mm;
+        const bool nearer = mm < distance_mm();
+        if (distance(foot.at_mm, best_.at_mm) > kSameFoot)
+            others_mm_ = std::min(others_mm_, nearer ? distance_mm() : mm);
+        if (nearer) best_ = foot;
+    }
+
+  private:
+    contact::Foot best_;
+    double others_mm_;
+};
+
+// The bricks within `bound_mm` of a point that may contain material, and the distance up to which all of them
+// are listed.
+class FieldQuery::Candidates {
+  public:
+    Candidates(const FieldQuery& field, BrickCoord here, Vec3 p, double bound_mm) {
+        const double brick_mm = kBrickCells * field.cell_mm;
+        const Vec3 corner = field.lattice(here).node(0, 0, 0);
+        const auto low = [&](double from, double at) {
+            return std::max(-kMostReach, static_cast<int>(std::floor((at - bound_mm - from) / brick_mm)));
+        };
+        const auto high = [&](double from, double at) {
+            return std::min(kMostReach, static_cast<int>(std::floor((at + bound_mm - from) / brick_mm)));
+        };
+        const auto gap = [&](double from, int n, double at) {
+            return std::max({0.0, from + n * brick_mm - at, at - from - (n + 1) * brick_mm});
+        };
+        const auto face = [&](double from, double at) { return std::min(at - from, from + brick_mm - at); };
+        seen_mm_ =
+            kMostReach * brick_mm + std::min({face(corner.x, p.x), face(corner.y, p.y), face(corner.z, p.z)});
+        const double most = bound_mm * bound_mm;
+        for (int k = low(corner.z, p.z); k <= high(corner.z, p.z); ++k) {
+            const double z = gap(corner.z, k, p.z), zz = z * z;
+            if (zz >= most) continue;
+            for (int j = low(corner.y, p.y); j <= high(corner.y, p.y); ++j) {
+                const double y = gap(corner.y, j, p.y), yz = zz + y * y;
+                if (yz >= most) continue;
+                for (int i = low(corner.x, p.x); i <= high(corner.x, p.x); ++i) {
+                    const double x = gap(corner.x, i, p.x), square = yz + x * x;
+                    if (square >= most) continue;
+                    const BrickCoord b{here.i + i, here.j + j, here.k + k};
+                    if (field.bricks.contains(b) && field.bricks.get(b) != kAir) put({square, b});
+                }
+            }
+        }
+    }
+    // Takes the nearest brick that was not taken yet, if there is one within `bound_mm`.
+    bool take(double bound_mm, BrickCoord& b, double& distance_mm) {
+        std::size_t least = count_;
+        double square = bound_mm * bound_mm;
+        for (std::size_t n = 0; n < count_; ++n) {
+            if (all_[n].square < square) {
+                square = all_[n].square;
+                least = n;
+            }
+        }
+        if (least == count_) return false;
+        b = all_[least].brick;
+        distance_mm = std::sqrt(square);
+        all_[least] = all_[--count_];
+        return true;
+    }
+    // All bricks up to this distance are listed.
+    double seen_mm() const { return seen_mm_; }
+
+  private:
+    struct One {
+        double square;
+        BrickCoord brick;
+    };
+    void put(const One& one) {
+        if (count_ < all_.size()) {
+            all_[count_++] = one;
+            return;
+        }
+        const auto farthest = std::max_element(
+            all_.begin(), all_.end(), [](const One& a, const One& b) { return a.square < b.square; });
+        seen_mm_ = std::min(seen_mm_, std::sqrt(std::max(farthest->square, one.square)));
+        if (one.square < farthest->square) *farthest = one;
+    }
+    std::array<One, 64> all_;
+    std::size_t count_ = 0;
+    double seen_mm_ = 0;
+};
+
+// Returns the surface near a node and its normal there: from the grid or, near corners, from the shape that
+// gives the distance.
+FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c, Vec3 node) const {
+    const auto index = static_cast<std::size_t>(node_index(a, b, c));
+    const auto d = static_cast<double>(brick.distance_mm[index]);
+    Vec3 rise = slope_at(brick, a, b, c);
+    const double steep = length(rise);
+    if (steep > kOneSlope * cell_mm) {
+        rise = (1 / steep) * rise;
+    } else {
+        const std::uint16_t shape = brick.winner[index];
+        rise = outward(shape == Brick::kUnlisted ? 0 : brick.shapes[shape], node);
+    }
+    return {node - d * rise, rise};
+}
+
+// Returns true if the surface that a place represents is nowhere nearer to the point than `than_mm`.
+bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
+    const Vec3 way = p - place.at;
+    const double over = dot(way, place.normal), aside = length(way - over * place.normal);
+    const double side = std::max(0.0, aside - kAround * cell_mm), up = std::max(0.0, over - kBulge * cell_mm);
+    return side * side + up * up >= than_mm * than_mm;
+}
+
+// Finds the node at the surface in a brick that is nearest to a point. The node must be so near that a point
+// of the surface less than `within_mm` away may be there, and farther than two cells from each of `but`.
+// Returns false if there is none.
+bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Seen> but,
+                              Seen& place) const {
+    // Surface that faces another way is the other side of a corner.
+    const auto is_seen = [&](const Seen& s) {
+        return std::any_of(but.begin(), but.end(), [&](const Seen& other) {
+            return squared_length(other.at - s.at) < 4 * cell_mm * cell_mm &&
+                   dot(other.normal, s.normal) > kOneWay;
+        });
+    };
+    const BrickRef ref = bricks.get(where);
+    if (ref == kUntouched) {
+        const Vec3 at = clamped(box(where), p);
+        place = {at, blank().gradient(at)};
+        return !is_seen(place);
+    }
+    const Brick& brick = (*pool)[ref];
+    const Lattice nodes = lattice(where);
+    const Vec3 q = (p - nodes.node(0, 0, 0)) * per_cell;
+    // No point of the surface is farther than this from every node.
+    const double close = (kClearCells + kRounding) * cell_mm, reach = within_mm * per_cell + kClearCells;
+    double least = reach * reach;
+    const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
+    const auto high = [&](double at) {
+        return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
+    };
+    bool any = false;
+    for (int c = low(q.z); c <= high(q.z); ++c) {
+        for (int b = low(q.y); b <= high(q.y); ++b) {
+            const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
+            if (yz >= least) continue;
+            for (int a = low(q.x); a <= high(q.x); ++a) {
+                const double d =
+                    static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
+                const double square = yz + (a - q.x) * (a - q.x);
+                if (d > close || d < -close || square >= least) continue;
+                const double beyond = within_mm + std::abs(d) + kAround * cell_mm;
+                if (square * cell_mm * cell_mm >= beyond * beyond) continue;
+                const Seen here = surface_by(brick, a, b, c, nodes.node(a, b, c));
+                if (none_nearer(here, p, within_mm) || is_seen(here)) continue;
+                least = square;
+                place = here;
+                any = true;
+            }
+        }
+    }
+    return any;
+}
+
+// The place below a point that is so deep in the piece: found if it is on the surface. The ball of this depth
+// is air. Far from its surface a searched sweep may miss the depth by some 1e-5 mm: then once more from
+// there.
+contact::Foot FieldQuery::below(contact::SurfaceSample depth, Vec3 p) const {
+    contact::Foot foot{depth, p - depth.distance_mm * depth.normal, {}, false};
+    double off_mm = std::abs(distance_mm(foot.at_mm));
+    if (off_mm > kNoStep && off_mm <= kStep) {
+        const contact::SurfaceSample left = sample_piece(depth.piece, foot.at_mm);
+        foot.at_mm -= left.distance_mm * left.normal;
+        foot.sample.distance_mm = distance(p, foot.at_mm);
+        foot.sample.normal = normalized(p - foot.at_mm, depth.normal);
+        off_mm = std::abs(distance_mm(foot.at_mm));
+    }
+    // A brick that knows the piece knows where another one is deeper.
+    foot.found = depth.distance_mm > 0 &&
+                 (off_mm <= kNoStep || (off_mm <= kStep && !is_listed(depth.piece, foot.at_mm)));
+    if (foot.found) foot.sides.put({foot.sample.normal, dot(foot.sample.normal, foot.at_mm), depth.piece}, 0);
+    return foot;
+}
+
+bool FieldQuery::is_listed(ShapeId id, Vec3 p) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b) || bricks.get(b) < kFirstBrick) return false;
+    const std::vector<ShapeId>& listed = (*pool)[bricks.get(b)].shapes;
+    return std::find(listed.begin(), listed.end(), id) != listed.end();
+}
+
+// The nearest place on the pieces that met at the last one, if it is proven to be the nearest of all.
+std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint& hint) const {
+    if (hint.sides.count == 0) return std::nullopt;
+    for (int n = 0; n < hint.sides.count; ++n) {
+        if (!is_listed(hint.sides.side[static_cast<std::size_t>(n)].piece, hint.at_mm)) return std::nullopt;
+    }
+    Vec3 start = hint.sides.nearest(p);
+    if (hint.sides.count == 1) {
+        const contact::Foot foot = below(sample_piece(hint.sides.side[0].piece, p), p);
+        if (foot.found) return foot;
+        start = foot.at_mm;
+    } else if (const auto edge = hint.sides.edge_at(start); squared_length(edge.along) > 0) {
+        start = hint.sides.nearest_on_bend(p, edge, start, hint.at_mm);
+    }
+    const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, hint.sides);
+    if (foot.found && is_nearest(foot)) return foot;
+    return std::nullopt;
+}
+
+contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
+    const std::optional<contact::Foot> near = follow(p, hint);
+    const contact::Foot foot = near ? *near : search_nearest(p, within_mm, hint);
+    if (foot.found) {
+        hint.at_mm = foot.at_mm;
+        hint.from_mm = p;
+    }
+    hint.sides = foot.sides;
+    return foot.sample;
+}
+
+contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
+    // There is no material inside a shape that was carved. The depth of the point in it is therefore a lower
+    // bound of the distance, which a surface point can reach; on a smooth piece one does.
+    const BrickCoord here = brick_at(p), there = brick_at(hint.at_mm);
+    contact::SurfaceSample lower{0, {0, 0, 1}, 0};
+    for (const BrickCoord b : {here, there}) {
+        if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
+        const Exact e = exact(bricks.get(b), p);
+        const contact::SurfaceSample s{e.distance_mm, outward(e.shape, p), e.shape};
+        if (s.distance_mm >= within_mm) return {s, p, {}};
+        if (s.distance_mm <= 0) {
+            if (b == here) return {s, p, {}};
+            continue;
+        }
+        if (const contact::Foot foot = below(s, p); foot.found) return foot;
+        if (s.distance_mm > lower.distance_mm) lower = s;
+        if (here == there) break;
+    }
+    // At a cusp: the nearest surface point of each brick that may contain one.
+    NearestPlace found(within_mm);
+    bool is_proven = false;     // the best one is the nearest
+    Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
+    const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<Vec3> {
+        for (int tries = 0; tries < 2; ++tries) {
+            const NearBrick brick(*this, ref);
+            const contact::Foot foot = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
+            const contact::SurfaceSample at_foot = sample(foot.at_mm);
+            if (foot.found && std::abs(at_foot.distance_mm) <= kOnSurface) {
+                found.put(foot);
+                is_proven = is_proven || is_nearest(foot);
+                return foot.at_mm;
+            }
+            // The shapes of one brick may leave material where another brick has air. Continue from the true
+            // surface.
+            if (squared_length(foot.at_mm - refuted) < kOnSurface * kOnSurface) break;
+            refuted = foot.at_mm;
+            from = foot.at_mm - at_foot.distance_mm * at_foot.normal;
+            const BrickCoord b = brick_at(from);
+            if (!bricks.contains(b) || bricks.get(b) == kAir) break;
+            ref = bricks.get(b);
+        }
+        return std::nullopt;
+    };
+    const auto search_at = [&](Vec3 from) {
+        const BrickCoord b = brick_at(from);
+        if (bricks.contains(b) && bricks.get(b) != kAir) (void)search(bricks.get(b), from);
+    };
+    const auto shown_beyond = [&](double mm) { return is_proven || found.distance_mm() - mm <= kOnSurface; };
+    search_at(hint.at_mm + (p - hint.from_mm));
+    if (shown_beyond(lower.distance_mm)) return found.best();
+    // Material only ever disappears: surface that was farther away a short time ago still is. What was found
+    // must be the place of the hint: not beyond the point that was nearest there.
+    if (hint.others_mm > 0 && found.distance_mm() <= distance(p, hint.at_mm) + kOnSurface &&
+        shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm)))
+        return found.best();
+    // In a corner of the material both sides are near.
+    if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
+    if (shown_beyond(lower.distance_mm)) return found.best();
+    hint.others_mm = 0;
+    bool doubt = false;
+    // Search the bricks from the nearest one on, which are the most likely. Up to `proven` no other brick can
+    // be nearer.
+    const auto reach = [&] { return std::min(found.distance_mm() + kMarginCells * cell_mm, within_mm); };
+    Candidates bricks_near(*this, here, p, reach());
+    const double proven = bricks_near.seen_mm();
+    BrickCoord b;
+    double way = 0;
+    int searches = 0;
+    bool all_looked = true;
+    Seen seen[2 * kMostSearches + 2];  // start and end points of the searches
+    std::size_t count = 0;
+    if (found.best().found) seen[count++] = {found.best().at_mm, found.best().sample.normal};
+    contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
+    for (int looked = 0; bricks_near.take(reach(), b, way); ++looked) {
+        const BrickRef ref = bricks.get(b);
+        if (looked == kMostLooked) {
+            all_looked = false;
+            break;
+        }
+        if (is_clear(ref, p, reach())) continue;
+        if (way < nearest_box.distance_mm)
+            nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
+        // Start where the grid shows the surface, once for each cusp: two cusps in one brick are two places.
+        Seen start;
+        for (int n = 0; near_surface(b, p, reach(), {seen, seen + count}, start); ++n) {
+            if (n == kMostStarts) {
+                all_looked = false;
+                break;
+            }
+            if (++searches > kMostSearches) break;
+            const std::optional<Vec3> foot = search(ref, start.at);
+            if (is_proven) return found.best();
+            if (!foot) {
+                doubt = true;
+                break;  // the other cusps of this brick would fail too
+            }
+            seen[count++] = start;
+            seen[count++] = {*foot, normalized(p - *foot, {0, 0, 1})};
+        }
+        if (searches > kMostSearches) {
+            all_looked = false;
+            break;
+        }
+    }
+    // A search may have failed on surface that the shapes of other bricks removed. This is accepted if
+    // another search succeeded.
+    if (!(doubt && !found.best().found) && found.distance_mm() <= proven + kOnSurface) {
+        if (all_looked && !doubt && found.best().found) {
+            hint.proved_at_mm = p;
+            hint.others_mm = std::min({found.others_mm(), reach(), proven});
+        }
+        return found.best();
+    }
+    // Not proven to be the nearest: return what is known of the distance.
+    if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
+    if (nearest_box.distance_mm >= proven && proven > lower.distance_mm)
+        lower = {proven, lower.normal, lower.piece};
+    const double outside = blank().distance_mm(p);
+    if (outside > lower.distance_mm) lower = {outside, blank().gradient(p), 0};
+    return {lower, p, {}};
+}
+
+}  // namespace tribo::field
