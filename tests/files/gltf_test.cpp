@@ -2,6 +2,7 @@
 // What write_glb writes, read_gltf reads back; what it must not read, it refuses.
 #include "files/model/gltf.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -21,7 +22,7 @@ TriangleMesh tetrahedron() {
     return mesh;
 }
 
-std::string written(const TriangleMesh& mesh, const IsUntouched& untouched = {}) {
+std::string written(const TriangleMesh& mesh, std::span<const std::uint8_t> untouched = {}) {
     const test::Scratch scratch;
     EXPECT_TRUE(write_glb(scratch / "part.glb", mesh, untouched).has_value());
     return scratch.get("part.glb");
@@ -98,9 +99,9 @@ TEST(Gltf, is_in_metres_with_y_up_for_those_who_keep_to_the_standard) {
 
 TEST(Gltf, keeps_machined_and_untouched_surface_apart_and_reads_both) {
     const TriangleMesh mesh = tetrahedron();
-    const auto base = [&](const Triangle& t) {
-        return mesh.position(t[0]).z == 0 && mesh.position(t[1]).z == 0 && mesh.position(t[2]).z == 0;
-    };
+    std::vector<std::uint8_t> base;
+    for (const Triangle& t : mesh.triangles)
+        base.push_back(std::ranges::all_of(t, [&](std::uint32_t n) { return mesh.position(n).z == 0; }));
     const std::string bytes = written(mesh, base);
     std::uint32_t length = 0;
     std::memcpy(&length, bytes.data() + 12, 4);
@@ -119,6 +120,12 @@ TEST(Gltf, keeps_machined_and_untouched_surface_apart_and_reads_both) {
     EXPECT_TRUE(is_closed(model->mesh));
     EXPECT_EQ(model->mesh.positions.size(), 4u);
     EXPECT_NEAR(volume_mm3(model->mesh), 1000, 1e-2);
+    ASSERT_EQ(model->untouched.size(), 4u);
+    for (std::size_t n = 0; n < 4; ++n) {
+        const auto& t = model->mesh.triangles[n];
+        const bool low = std::ranges::all_of(t, [&](auto k) { return model->mesh.position(k).z == 0; });
+        EXPECT_EQ(model->untouched[n] != 0, low);
+    }
 }
 
 TEST(Gltf, of_a_foreign_file_is_millimetres_with_a_warning_unless_the_job_says) {
@@ -126,6 +133,7 @@ TEST(Gltf, of_a_foreign_file_is_millimetres_with_a_warning_unless_the_job_says) 
     const auto plain = read_gltf(file, {.source_name = "a.glb"});
     ASSERT_TRUE(plain.has_value()) << plain.error().text();
     EXPECT_NEAR(area_mm2(plain->mesh), 0.5, 1e-6);
+    EXPECT_TRUE(plain->untouched.empty());
     ASSERT_EQ(plain->warnings.size(), 1u);
     EXPECT_NE(plain->warnings[0].message().find("unit_mm = 1000"), std::string::npos);
     const auto told = read_gltf(file, {.source_name = "a.glb", .unit_mm = 1000});

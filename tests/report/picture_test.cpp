@@ -223,7 +223,7 @@ RC_GTEST_PROP(Studio, has_no_seams, ()) {
     const Vec3 aside = normalized(cross(to_viewer, Vec3{0.3, 0.7, 0.2}), {1, 0, 0});
     const Vec3 a = normalized(to_viewer + *rc::gen::inRange(0, 1500) / 1000.0 * aside),
                b = normalized(a + 2e-4 * aside);
-    for (const Finish finish : {Finish::metal, Finish::paint}) {
+    for (const Finish finish : {Finish::machined, Finish::sawn, Finish::paint}) {
         const Rgb seen = studio.on(finish, {0.6F, 0.6F, 0.6F}, a, to_viewer, 0),
                   beside = studio.on(finish, {0.6F, 0.6F, 0.6F}, b, to_viewer, 0);
         RC_ASSERT(std::abs(seen.g - beside.g) < 0.02);
@@ -239,6 +239,41 @@ TEST(Studio, tones_dark_light_but_little_and_keeps_all_below_white) {
         EXPECT_EQ(grey.r, grey.b);
     }
     EXPECT_NEAR(toned({0.5F, 0.5F, 0.5F}).g, 0.46F, 1e-6F);  // less the 0.04 that a dielectric would add
+}
+
+// Two halves of one upright square, seen from the front: the left one is sawn.
+TEST(Picture, tells_sawn_faces_from_machined_ones) {
+    TriangleMesh mesh;
+    for (const double x : {-20.0, 0.0, 20.0})
+        for (const double z : {-20.0, 20.0}) mesh.positions.push_back(point(x, 0, z));
+    mesh.triangles = {{0, 2, 1}, {2, 3, 1}, {2, 4, 3}, {4, 5, 3}};
+    PictureOptions options{.width = 200, .height = 200, .towards_viewer = {0, -1, 0}};
+    const files::Image bright = draw_part(mesh, {}, options);
+    const std::array<std::uint8_t, 4> sawn{1, 1, 0, 0};
+    options.sawn = sawn;
+    const files::Image both = draw_part(mesh, {}, options);
+    const auto lightness = [&](const files::Image& image, int from) {
+        double sum = 0;
+        for (int y = 20; y < 180; ++y)
+            for (int x = from; x < from + 60; ++x) sum += channel(image, x, y, 1);
+        return sum / (160 * 60);
+    };
+    EXPECT_LT(lightness(both, 20), 0.8 * lightness(bright, 20));
+    EXPECT_EQ(lightness(both, 120), lightness(bright, 120));
+    // Its stripes lie across the part: a column goes through them.
+    int least = 255, most = 0;
+    for (int y = 20; y < 180; ++y) {
+        least = std::min<int>(least, channel(both, 50, y, 1));
+        most = std::max<int>(most, channel(both, 50, y, 1));
+    }
+    EXPECT_GT(most - least, 5);
+    // Colours of data lie over both.
+    const std::array<std::array<std::uint8_t, 3>, 4> red{
+        {{200, 0, 0}, {200, 0, 0}, {200, 0, 0}, {200, 0, 0}}};
+    options.triangle_colours = red;
+    const files::Image data = draw_part(mesh, {}, options);
+    options.sawn = {};
+    EXPECT_EQ(draw_part(mesh, {}, options).rgba, data.rgba);
 }
 
 TEST(Picture, of_nothing_is_transparent) {

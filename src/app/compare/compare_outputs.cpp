@@ -206,7 +206,8 @@ report::ComparedSide side_of(ComparedRun& run, std::optional<report::ReportPart>
     side.what = std::string(name_of(run.kind)) + (run.what.empty() ? "" : ", " + run.what);
     side.sound = std::move(run.sound);
     if (!run.mesh.triangles.empty())
-        side.picture_png = files::png_bytes(report::draw_part(run.mesh, {}, {.on_ground = true}));
+        side.picture_png =
+            files::png_bytes(report::draw_part(run.mesh, {}, {.on_ground = true, .sawn = run.untouched}));
     side.part = std::move(part);
     return side;
 }

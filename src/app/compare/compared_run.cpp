@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "app/render/part_deviation.hpp"
 #include "app/render/render_sinks.hpp"
+#include "app/render/stock_faces.hpp"
 #include "field/contour/contour.hpp"
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
@@ -224,6 +225,8 @@ FileResult<std::optional<ComparedRun>> mill_run(ComparedInput input, const std::
     if (chatter) traces = chatter->take_surface();
     if (bending) traces = bending->take();
     run.mesh = field::contour(run.session->stock(), parallel);
+    run.untouched =
+        untouched_triangles(run.mesh, vertices_on_blank(run.mesh, run.session->stock().blank(), parallel));
     if (auto done = measure(prepared, std::move(traces), parallel, run); !done)
         return std::unexpected(done.error());
     return std::optional<ComparedRun>(std::move(run));

@@ -58,6 +58,7 @@ struct ComparedRun {
     std::unique_ptr<session::MillSession> session;
     std::unique_ptr<field::CarvedField> solid;
     TriangleMesh mesh;
+    std::vector<std::uint8_t> untouched;  // of its triangles, see stock_faces.hpp; empty: not known
     std::optional<report::ReportSound> sound;
 
     const field::CarvedField* part() const { return session ? &session->stock() : solid.get(); }

@@ -9,6 +9,7 @@
 #include "app/render/part_deviation.hpp"
 #include "app/render/report_chatter.hpp"
 #include "app/render/report_sheet.hpp"
+#include "app/render/stock_faces.hpp"
 #include "base/text/decimal.hpp"
 #include "field/contour/contour.hpp"
 #include "files/model/gltf.hpp"
@@ -22,8 +23,6 @@
 namespace tribo::app {
 namespace {
 
-// A shallower cut counts as the face of the blank.
-constexpr double kOnFaceMm = 1e-3;
 constexpr std::size_t kVerticesAtOnce = 4096;
 
 // Returns a text about the sources of the sound. It says that not all of them are measured.
@@ -140,17 +139,20 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session,
         if (auto done = write_surface(summary); !done) return done;
     }
     TriangleMesh mesh;
+    std::vector<std::uint8_t> on_blank;
     if (call_.wants("mesh") || call_.wants("report")) {
         mesh = field::contour(session.stock(), parallel_);
+        on_blank = vertices_on_blank(mesh, session.stock().blank(), parallel_);
         summary.triangles = mesh.triangles.size();
     }
     if (call_.wants("mesh")) {
-        if (auto done = write_mesh(mesh, session.stock().blank()); !done) return done;
+        if (auto done = write_mesh(mesh, on_blank); !done) return done;
     }
     if (loaded_.part) {
         if (auto done = compare(session, summary); !done) return done;
     }
-    if (call_.wants("report")) return write_report(session, chatter, summary, std::move(mesh));
+    if (call_.wants("report"))
+        return write_report(session, chatter, summary, std::move(mesh), std::move(on_blank));
     return {};
 }
 
@@ -197,7 +199,7 @@ FileResult<void> RenderOutputs::write_surface(report::Summary& summary) {
     return file->finish();
 }
 
-FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, const field::Shape& blank) {
+FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, std::span<const std::uint8_t> on_blank) {
     auto stl = files::FileWriter::create(folder_.file("machined.stl"));
     if (!stl) return std::unexpected(stl.error());
     readers::write_stl(mesh, [&](std::string_view bytes) {
@@ -205,11 +207,7 @@ FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, const field
         return true;
     });
     if (auto done = stl->finish(); !done) return done;
-    return files::write_glb(folder_.file("machined.glb"), mesh, [&](const Triangle& t) {
-        return std::all_of(t.begin(), t.end(), [&](std::uint32_t corner) {
-            return std::abs(blank.distance_mm(mesh.position(corner))) <= kOnFaceMm;
-        });
-    });
+    return files::write_glb(folder_.file("machined.glb"), mesh, untouched_triangles(mesh, on_blank));
 }
 
 FileResult<void> RenderOutputs::compare(const session::MillSession& session, report::Summary& summary) {
@@ -229,19 +227,10 @@ FileResult<void> RenderOutputs::compare(const session::MillSession& session, rep
     return {};
 }
 
-report::ReportPart RenderOutputs::report_part(const session::MillSession& session,
-                                              const report::Summary& summary,
-                                              const TriangleMesh& mesh) const {
+report::ReportPart RenderOutputs::report_part(const report::Summary& summary, const TriangleMesh& mesh,
+                                              std::vector<std::uint8_t> on_blank) const {
     report::ReportPart part;
-    const field::Shape& blank = session.stock().blank();
-    part.untouched.resize(mesh.positions.size());
-    parallel_((mesh.positions.size() + kVerticesAtOnce - 1) / kVerticesAtOnce, [&](std::size_t piece) {
-        const std::size_t end = std::min(mesh.positions.size(), (piece + 1) * kVerticesAtOnce);
-        for (std::size_t n = piece * kVerticesAtOnce; n < end; ++n) {
-            const double off = blank.distance_mm(mesh.position(static_cast<std::uint32_t>(n)));
-            part.untouched[n] = std::abs(off) <= kOnFaceMm ? 1 : 0;
-        }
-    });
+    part.untouched = std::move(on_blank);
     part.mesh = report::with_fewer_vertices(mesh, report::kMostPartVertices, part.untouched);
     std::vector<float> bent_mm(form_error_.empty() ? 0 : part.mesh.positions.size());
     parallel_((bent_mm.size() + kVerticesAtOnce - 1) / kVerticesAtOnce, [&](std::size_t piece) {
@@ -270,15 +259,17 @@ report::ReportPart RenderOutputs::report_part(const session::MillSession& sessio
 
 FileResult<void> RenderOutputs::write_report(const session::MillSession& session,
                                              const session::ProgramChatter* chatter,
-                                             const report::Summary& summary, TriangleMesh mesh) {
+                                             const report::Summary& summary, TriangleMesh mesh,
+                                             std::vector<std::uint8_t> on_blank) {
     report::ReportData data;
     data.title = call_.job;
     data.subtitle = std::string(loaded_.material.name) + ", " +
                     std::to_string(session.setup().cutters.size()) +
                     (session.setup().cutters.size() == 1 ? " cutter" : " cutters");
     data.summary = summary;
-    data.picture_png = files::png_bytes(report::draw_part(mesh, {}, {.on_ground = true}));
-    data.part = report_part(session, summary, mesh);
+    const std::vector<std::uint8_t> sawn = untouched_triangles(mesh, on_blank);
+    data.picture_png = files::png_bytes(report::draw_part(mesh, {}, {.on_ground = true, .sawn = sawn}));
+    data.part = report_part(summary, mesh, std::move(on_blank));
     mesh = {};
     data.rows = report::thin_rows(report_.rows, 4000);
     data.turn = report_.turn(session.setup());

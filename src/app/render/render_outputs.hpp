@@ -2,7 +2,10 @@
 // Writes the output files of one render.
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "app/render/render.hpp"
 #include "app/render/render_job.hpp"
@@ -41,12 +44,14 @@ class RenderOutputs {
     void add_bands(const session::MillSession& session, const session::ProgramChatter* chatter,
                    report::Summary& summary) const;
     FileResult<void> write_surface(report::Summary& summary);
-    FileResult<void> write_mesh(const TriangleMesh& mesh, const field::Shape& blank);
+    // `on_blank`: of the vertices, see stock_faces.hpp.
+    FileResult<void> write_mesh(const TriangleMesh& mesh, std::span<const std::uint8_t> on_blank);
     FileResult<void> compare(const session::MillSession& session, report::Summary& summary);
-    report::ReportPart report_part(const session::MillSession& session, const report::Summary& summary,
-                                   const TriangleMesh& mesh) const;
+    report::ReportPart report_part(const report::Summary& summary, const TriangleMesh& mesh,
+                                   std::vector<std::uint8_t> on_blank) const;
     FileResult<void> write_report(const session::MillSession& session, const session::ProgramChatter* chatter,
-                                  const report::Summary& summary, TriangleMesh mesh);
+                                  const report::Summary& summary, TriangleMesh mesh,
+                                  std::vector<std::uint8_t> on_blank);
 
     const RenderCall& call_;
     PreparedJob& loaded_;

@@ -48,7 +48,8 @@ struct Found {
     report::Facts facts;
     TriangleMesh mesh;
     std::vector<report::PictureLine> lines;
-    std::vector<readers::Rgb8> colours = {};  // of the triangles, or none
+    std::vector<readers::Rgb8> colours = {};   // of the triangles, or none
+    std::vector<std::uint8_t> untouched = {};  // of the triangles, or none
 };
 
 // Examines moves while they are read: a long program is never held in memory.
@@ -124,7 +125,8 @@ FileResult<Found> inspect_model(const std::string& file) {
     FileResult<readers::Model> model = files::read_model_file({file, std::nullopt});
     if (!model) return std::unexpected(model.error());
     report::Facts facts = report::describe(*model);
-    return Found{std::move(facts), std::move(model->mesh), {}, std::move(model->colours)};
+    return Found{
+        std::move(facts), std::move(model->mesh), {}, std::move(model->colours), std::move(model->untouched)};
 }
 
 FileResult<Found> inspect_response(std::string_view bytes, const std::string& file) {
@@ -195,6 +197,7 @@ int inspect(const Call& call) {
         report::PictureOptions options;
         options.on_ground = !found->mesh.triangles.empty();
         options.triangle_colours = found->colours;
+        options.sawn = found->untouched;
         const files::Image image = report::draw_part(found->mesh, found->lines, options);
         if (const auto written = files::write_png(call.picture, image); !written)
             return report(written.error());

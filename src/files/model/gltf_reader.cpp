@@ -140,19 +140,20 @@ class GltfReader {
     GltfReader(const tinygltf::Model& model, const readers::ModelOptions& options, double unit_mm)
         : model_(model), options_(options), file_(options.source_name), unit_mm_(unit_mm) {}
 
-    Result<TriangleMesh> read(const std::vector<int>& roots) {
+    // Mesh and, in a file of Tribo, what of it is untouched.
+    Result<readers::Model> read(const std::vector<int>& roots) {
         for (const bool copying : {false, true}) {
             copying_ = copying;
             visited_ = primitives_ = 0;
             if (copying) {
-                mesh_.positions.reserve(positions_);
-                mesh_.triangles.reserve(triangles_);
+                found_.mesh.positions.reserve(positions_);
+                found_.mesh.triangles.reserve(triangles_);
             }
             for (const int root : roots) {
                 if (auto ok = node(root, kIdentity, 0); !ok) return std::unexpected(ok.error());
             }
         }
-        return std::move(mesh_);
+        return std::move(found_);
     }
 
   private:
@@ -211,7 +212,16 @@ class GltfReader {
         if (found.triangles() == 0) return {};
         const bool again = copied == position->second;
         copied = position->second;
-        return copying_ ? copy(found, here, again) : count(found, again);
+        if (!copying_) return count(found, again);
+        if (auto ok = copy(found, here, again); !ok) return ok;
+        if (model_.asset.generator == kOwnGenerator)
+            found_.untouched.resize(found_.mesh.triangles.size(), is_stock(p.material) ? 1 : 0);
+        return {};
+    }
+
+    bool is_stock(int material) const {
+        return material >= 0 && material < static_cast<int>(model_.materials.size()) &&
+               model_.materials[static_cast<std::size_t>(material)].name == kStockMaterial;
     }
 
     Result<void> count(const Primitive& p, bool again) {
@@ -225,7 +235,7 @@ class GltfReader {
     }
 
     Result<void> copy(const Primitive& p, const Matrix& here, bool again) {
-        const std::size_t first = mesh_.positions.size() - (again ? p.points.count : 0);
+        const std::size_t first = found_.mesh.positions.size() - (again ? p.points.count : 0);
         for (std::size_t n = 0; !again && n < p.points.count; ++n) {
             float v[3];
             std::memcpy(v, p.points.first + n * p.points.stride, sizeof v);
@@ -240,7 +250,7 @@ class GltfReader {
                 return refused(file_, "a glTF position is not a number, or beyond single precision",
                                "check the model's scale and unit_mm");
             }
-            mesh_.positions.push_back(*point);
+            found_.mesh.positions.push_back(*point);
         }
         const bool mirrored = determinant(here) < 0;  // a mirror reverses triangles (glTF 2.0, 3.7.4)
         for (std::size_t n = 0; n < p.triangles(); ++n) {
@@ -254,7 +264,7 @@ class GltfReader {
                 t[k] = static_cast<std::uint32_t>(first + i);
             }
             if (mirrored) std::swap(t[1], t[2]);
-            mesh_.triangles.push_back(t);
+            found_.mesh.triangles.push_back(t);
         }
         return {};
     }
@@ -266,7 +276,7 @@ class GltfReader {
     bool copying_ = false;
     int visited_ = 0, primitives_ = 0;
     std::size_t positions_ = 0, triangles_ = 0;
-    TriangleMesh mesh_;
+    readers::Model found_;
 };
 
 // Returns the length of one unit stated in the file, mm; none if it states none.
@@ -336,18 +346,16 @@ Result<readers::Model> read_gltf(std::string_view bytes, const readers::ModelOpt
         const int scene = std::clamp(model.defaultScene, 0, static_cast<int>(model.scenes.size()) - 1);
         roots = model.scenes[static_cast<std::size_t>(scene)].nodes;
     }
-    auto mesh = GltfReader(model, options, unit_mm.value_or(1)).read(roots);
-    if (!mesh) return std::unexpected(mesh.error());
-    readers::Model found;
-    found.mesh = std::move(*mesh);
-    found.format = readers::ModelFormat::gltf;
+    auto found = GltfReader(model, options, unit_mm.value_or(1)).read(roots);
+    if (!found) return found;
+    found->format = readers::ModelFormat::gltf;
     if (!unit_mm) {
-        found.warnings.push_back({file, 0,
-                                  "one unit of the glTF file is taken as 1 mm; where it keeps to the "
-                                  "standard's metre, write unit_mm = 1000"});
+        found->warnings.push_back({file, 0,
+                                   "one unit of the glTF file is taken as 1 mm; where it keeps to the "
+                                   "standard's metre, write unit_mm = 1000"});
     }
     model = {};
-    return readers::finish_model(std::move(found), options, readers::Weld::exact);
+    return readers::finish_model(*std::move(found), options, readers::Weld::exact);
 }
 
 }  // namespace tribo::files

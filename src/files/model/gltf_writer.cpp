@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -6,6 +7,7 @@
 
 #include "files/json/json.hpp"
 #include "files/model/gltf.hpp"
+#include "files/model/gltf_document.hpp"
 
 namespace tribo::files {
 namespace {
@@ -56,7 +58,7 @@ Json accessor(std::size_t view, std::size_t offset, int component, std::size_t c
 Json document(const TriangleMesh& mesh, std::size_t machined) {
     Json json;
     json["asset"]["version"] = "2.0";
-    json["asset"]["generator"] = "Tribo";
+    json["asset"]["generator"] = kOwnGenerator;
     json["asset"]["extras"]["unit_mm"] = kUnitMm;
     json["scene"] = 0;
     json["scenes"] = Json::array({{{"nodes", Json::array({0})}}});
@@ -77,7 +79,7 @@ Json document(const TriangleMesh& mesh, std::size_t machined) {
         position["max"] = triple(box.max);
         json["accessors"].push_back(position);
         json["materials"] =
-            Json::array({material("machined", 0.16, 0.36, 0.72), material("stock", 0.62, 0.64, 0.67)});
+            Json::array({material("machined", 0.16, 0.36, 0.72), material(kStockMaterial, 0.62, 0.64, 0.67)});
         const auto draw = [&](int which, std::size_t first, std::size_t count) {
             if (count == 0) return;
             Json primitive;
@@ -105,13 +107,12 @@ void put(FileWriter& file, std::uint64_t value) {
 
 }  // namespace
 
-FileResult<void> write_glb(const std::string& path, const TriangleMesh& mesh, const IsUntouched& untouched) {
-    std::vector<bool> is_stock(mesh.triangles.size());
-    std::size_t machined = mesh.triangles.size();
-    for (std::size_t n = 0; untouched && n < is_stock.size(); ++n) {
-        is_stock[n] = untouched(mesh.triangles[n]);
-        machined -= is_stock[n] ? 1 : 0;
-    }
+FileResult<void> write_glb(const std::string& path, const TriangleMesh& mesh,
+                           std::span<const std::uint8_t> untouched) {
+    const auto is_stock = [&](std::size_t n) { return !untouched.empty() && untouched[n] != 0; };
+    const std::size_t machined =
+        mesh.triangles.size() -
+        static_cast<std::size_t>(std::ranges::count_if(untouched, [](auto stock) { return stock != 0; }));
     std::string text = dump(document(mesh, machined));
     text.resize((text.size() + 3) / 4 * 4, ' ');
     const std::uint64_t binary =
@@ -137,8 +138,8 @@ FileResult<void> write_glb(const std::string& path, const TriangleMesh& mesh, co
         file->write({"BIN\0", 4});
         file->write(raw(mesh.positions));
         for (const bool stock : {false, true}) {
-            for (std::size_t n = 0; n < is_stock.size(); ++n) {
-                if (is_stock[n] != stock) continue;
+            for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+                if (is_stock(n) != stock) continue;
                 file->write({reinterpret_cast<const char*>(&mesh.triangles[n]), sizeof(Triangle)});
             }
         }

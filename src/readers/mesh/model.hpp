@@ -68,6 +68,9 @@ struct Model {
     TriangleMesh mesh;  // mm; no unused and no non-finite position; no triangle with two equal corners
     std::vector<ModelPart> parts;    // VRML only: in order; together they contain all triangles
     std::vector<Rgb8> colours = {};  // one per triangle, the mean of its corners; empty: the file has none
+    // One per triangle: 1 where the part of a mill is untouched stock; empty: not known (the glTF of Tribo
+    // says it).
+    std::vector<std::uint8_t> untouched = {};
     ModelFormat format = ModelFormat::stl;
     Warnings warnings;
 };

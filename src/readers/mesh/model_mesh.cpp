@@ -30,13 +30,14 @@ void renumber(TriangleMesh& mesh) {
 std::size_t drop_degenerate(Model& model) {
     std::vector<Triangle>& triangles = model.mesh.triangles;
     std::vector<ModelPart>& parts = model.parts;
-    const bool coloured = !model.colours.empty();
+    const bool coloured = !model.colours.empty(), of_mill = !model.untouched.empty();
     std::size_t kept = 0;
     const auto keep_of = [&](std::size_t first, std::size_t count) {
         for (std::size_t i = first; i < first + count; ++i) {
             const Triangle t = triangles[i];
             if (is_degenerate(t)) continue;
             if (coloured) model.colours[kept] = model.colours[i];
+            if (of_mill) model.untouched[kept] = model.untouched[i];
             triangles[kept++] = t;
         }
     };
@@ -50,6 +51,7 @@ std::size_t drop_degenerate(Model& model) {
     const std::size_t dropped = triangles.size() - kept;
     triangles.resize(kept);
     if (coloured) model.colours.resize(kept);
+    if (of_mill) model.untouched.resize(kept);
     return dropped;
 }
 

@@ -10,6 +10,7 @@
 #include "base/math.hpp"
 #include "report/picture/disc_points.hpp"
 #include "report/picture/raster.hpp"
+#include "report/picture/saw_marks.hpp"
 #include "report/picture/studio.hpp"
 #include "report/picture/sun_shadow.hpp"
 
@@ -19,6 +20,10 @@ namespace {
 constexpr int kSamples = 2;            // per pixel along each side
 constexpr double kTanHalfView = 0.24;  // a portrait lens: 27 degrees, little distortion
 constexpr double kLineLift = 2e-3;     // share of the distance by which lines are in front of the surface
+// Of sawn metal, as in web/mill/src/sight/palette.ts and metal.ts; marks make it that much lighter and
+// darker.
+constexpr Colour kSawn{0.522F, 0.537F, 0.561F};
+constexpr float kMarks = 0.16F;
 
 struct Camera {
     Vec3 right, up, back;  // unit; back points to the viewer
@@ -75,6 +80,10 @@ Camera frame(const std::vector<Point3f>& points, const PictureOptions& options) 
 
 float to_linear(float srgb) {
     return srgb <= 0.04045F ? srgb / 12.92F : static_cast<float>(math::pow((srgb + 0.055) / 1.055, 2.4));
+}
+
+Rgb linear(const Colour& c) {
+    return {to_linear(c[0]), to_linear(c[1]), to_linear(c[2])};
 }
 
 // Converts linear light 0..1 to sRGB bytes.
@@ -135,7 +144,8 @@ class Painter {
     Painter(const TriangleMesh& mesh, const Camera& camera, const std::vector<Seen>& seen,
             const Buffer& buffer, const SunShadow& shadow, const PictureOptions& options)
         : mesh_(mesh), camera_(camera), seen_(seen), buffer_(buffer), shadow_(shadow), options_(options) {
-        metal_ = {to_linear(options.colour[0]), to_linear(options.colour[1]), to_linear(options.colour[2])};
+        machined_ = linear(options.colour);
+        sawn_ = linear(kSawn);
         for (std::size_t k = 0; k < linear_.size(); ++k) linear_[k] = to_linear(static_cast<float>(k) / 255);
     }
 
@@ -191,17 +201,31 @@ class Painter {
         const Triangle& t = mesh_.triangles[triangle];
         const Vec3 normal = normal_at(mesh_, t, camera_, seen_, x + middle, y + middle);
         const Vec3 place = place_at(x, y), to_viewer = normalized(camera_.eye - place, camera_.back);
-        Rgb colour = metal_;
-        Finish finish = Finish::metal;
+        Rgb colour = machined_;
+        Finish finish = Finish::machined;
         if (!options_.triangle_colours.empty()) {
             const auto& own = options_.triangle_colours[triangle];
             colour = {linear_[own[0]], linear_[own[1]], linear_[own[2]]};
             finish = Finish::paint;
+        } else if (!options_.sawn.empty() && options_.sawn[triangle] != 0) {
+            const float lighter = 1 + kMarks * saw_marks(place, mark_pixel(x, y, place, normal));
+            colour = {lighter * sawn_.r, lighter * sawn_.g, lighter * sawn_.b};
+            finish = Finish::sawn;
         }
         const Rgb light = studio().on(finish, colour, normal, to_viewer, shadow_.light(place, normal));
         const float open = openness(x, y, place, normal);
         const Rgb out = toned({open * light.r, open * light.g, open * light.b});
         return {std::min(out.r, 1.0F), std::min(out.g, 1.0F), std::min(out.b, 1.0F)};
+    }
+
+    // How far the marks of a saw change from a sample of a surface to the next pixels right and below.
+    double mark_pixel(int x, int y, Vec3 place, Vec3 normal) const {
+        const auto next = [&](int dx, int dy) {
+            const Vec3 ray = camera_.ray(x + dx + 0.5, y + dy + 0.5);
+            const Vec3 there = camera_.eye + (dot(place - camera_.eye, normal) / dot(ray, normal)) * ray;
+            return std::abs(saw_path(there) - saw_path(place));
+        };
+        return next(kSamples, 0) + next(0, kSamples);
     }
 
     Vec3 place_at(int x, int y) const {
@@ -238,7 +262,7 @@ class Painter {
     const Buffer& buffer_;
     const SunShadow& shadow_;
     const PictureOptions& options_;
-    Rgb metal_;
+    Rgb machined_, sawn_;
     std::array<float, 256> linear_;  // light of the bytes of a colour
     std::array<Vec3, 12> around_ = disc_points<12>();
 };
@@ -285,9 +309,9 @@ void draw_segment(std::vector<Pixel>& pixels, const Buffer& buffer, const Pictur
 }
 
 Colour linear_colour(const PictureLine& line, std::size_t i) {
-    const Colour c =
-        line.colours.empty() ? Colour{0.9F, 0.4F, 0.1F} : line.colours[std::min(i, line.colours.size() - 1)];
-    return {to_linear(c[0]), to_linear(c[1]), to_linear(c[2])};
+    const Rgb c = linear(line.colours.empty() ? Colour{0.9F, 0.4F, 0.1F}
+                                              : line.colours[std::min(i, line.colours.size() - 1)]);
+    return {c.r, c.g, c.b};
 }
 
 }  // namespace

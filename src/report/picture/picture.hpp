@@ -31,8 +31,10 @@ struct PictureOptions {
     Colour colour{0.81F, 0.82F, 0.835F};     // of machined metal
     bool on_ground = false;  // the part throws a shadow on ground below it, and the frame has room for that
     double margin = 0.04;    // of the shorter side, free around the part
-    // One per triangle, instead of metal of `colour`: dull paint; sRGB. Empty: all triangles are metal.
+    // One per triangle, instead of metal: dull paint; sRGB. Empty: all triangles are metal.
     std::span<const std::array<std::uint8_t, 3>> triangle_colours = {};
+    // One per triangle: 1 where the stock is untouched, which is sawn metal. Empty: all metal is machined.
+    std::span<const std::uint8_t> sawn = {};
 };
 
 // The background of the image is transparent. The same mesh gives the same bytes. Takes about 0.1 s for a

@@ -126,7 +126,8 @@ float Studio::Sky::at(Vec3 d) const {
 }
 
 // The polynomial of Karis 2014, "Physically based shading on mobile".
-Studio::Gloss::Gloss(float rough) : roughness(rough), sky(lobe_of(static_cast<double>(rough))) {
+Studio::Gloss::Gloss(float rough, float metal)
+    : roughness(rough), metalness(metal), sky(lobe_of(static_cast<double>(rough))) {
     const float r0 = 1 - rough, r1 = 0.0425F - 0.0275F * rough, r2 = 1.04F - 0.572F * rough,
                 r3 = 0.022F * rough - 0.04F;
     for (int n = 0; n <= kCosines; ++n) {
@@ -136,15 +137,16 @@ Studio::Gloss::Gloss(float rough) : roughness(rough), sky(lobe_of(static_cast<do
     }
 }
 
-Studio::Studio() : metal_(0.3F), paint_(0.55F), matte_(1) {}
+// As in web/mill/src/sight/metal.ts.
+Studio::Studio() : glosses_{Gloss(0.3F, 1), Gloss(0.62F, 0.4F), Gloss(0.55F, 0)}, matte_(1) {}
 
 Vec3 Studio::to_sun() {
     return normalized(Vec3{-0.75, -0.2, 1});
 }
 
 Rgb Studio::on(Finish finish, Rgb colour, Vec3 normal, Vec3 to_viewer, float sun) const {
-    const Gloss& gloss = finish == Finish::metal ? metal_ : paint_;
-    const float metalness = finish == Finish::metal ? 1 : 0;
+    const Gloss& gloss = glosses_[static_cast<std::size_t>(finish)];
+    const float metalness = gloss.metalness;
     const auto facing = static_cast<float>(std::clamp(dot(normal, to_viewer), 1e-3, 1.0));
     const float seen = gloss.sky.at(2 * dot(normal, to_viewer) * normal - to_viewer);
     const Mirrored share = gloss.mirrored[static_cast<std::size_t>(facing * kCosines + 0.5F)];
