@@ -44,6 +44,7 @@ class FakePage {
     const scene = {
       pose: POSE,
       wholePose: () => ({ ...POSE, distance: 300 }),
+      partPose: () => ({ ...POSE, distance: 250 }),
       setCurtain: (share: number) => (this.curtain = share),
       setFill: (share: number) => (this.fill = share),
       setBare: (on: boolean) => (this.bare = on),

@@ -4,7 +4,7 @@ import { Box3, PerspectiveCamera, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 
 import type { Row } from "@tribo/protocol/frames";
-import { centre, distanceTo } from "../src/sight/framing.js";
+import { centre, cornersOf, eyeFor } from "../src/sight/framing.js";
 import { Pace } from "../src/sight/pace.js";
 import { lastOf, passAt } from "../src/sight/pass.js";
 import { drawnHolder } from "../src/sight/tool.js";
@@ -98,30 +98,33 @@ describe("the camera", () => {
   it.each([
     [1440, 900, { x: 280, y: 60, width: 880, height: 600 }],
     [390, 844, { x: 0, y: 50, width: 390, height: 500 }],
-  ])("sees all of a box in the free part of a window of %i x %i", (width, height, free) => {
+  ])("sees all points in the free part of a window of %i x %i", (width, height, free) => {
     const camera = new PerspectiveCamera(34, width / height, 1, 5000);
     camera.up.set(0, 0, 1);
     centre(camera, width, height, free);
-    const distance = distanceTo(box, towards, camera, { width: free.width / width, height: free.height / height });
+    // A box, and a tool far to its left.
+    const points = [...cornersOf(box), new Vector3(-80, -50, 30)];
+    const share = { width: free.width / width, height: free.height / height };
     const middle = box.getCenter(new Vector3());
-    camera.position.copy(middle).addScaledVector(towards, distance);
-    camera.lookAt(middle);
+    const { target, distance } = eyeFor(points, middle, towards, camera, share);
+    expect(target.dot(towards)).toBeCloseTo(middle.dot(towards), 9);
+    camera.position.copy(target).addScaledVector(towards, distance);
+    camera.lookAt(target);
     camera.updateMatrixWorld();
     camera.updateProjectionMatrix();
-    let nearest = Infinity;
-    for (let corner = 0; corner < 8; ++corner) {
-      const p = new Vector3(
-        corner & 1 ? box.max.x : box.min.x,
-        corner & 2 ? box.max.y : box.min.y,
-        corner & 4 ? box.max.z : box.min.z,
-      ).project(camera);
+    const room = [0, 1, 2, 3].map(() => Infinity);
+    for (const point of points) {
+      const p = point.clone().project(camera);
       const [x, y] = [((p.x + 1) * width) / 2, ((1 - p.y) * height) / 2];
-      const inside = [x - free.x, free.x + free.width - x, y - free.y, free.y + free.height - y];
-      nearest = Math.min(nearest, ...inside);
+      [x - free.x, free.x + free.width - x, y - free.y, free.y + free.height - y].forEach(
+        (inside, side) => (room[side] = Math.min(room[side]!, inside)),
+      );
     }
-    expect(nearest).toBeGreaterThan(-0.5);
-    // No nearer than needed.
-    expect(nearest).toBeLessThan(1);
+    expect(Math.min(...room)).toBeGreaterThan(-0.5);
+    // As near as can be: it reaches from side to side, or from top to bottom.
+    expect(Math.min(Math.max(room[0]!, room[1]!), Math.max(room[2]!, room[3]!))).toBeLessThan(0.5);
+    // In the middle of the other way.
+    expect(Math.abs(room[0]! - room[1]!)).toBeLessThan(0.3 * free.width);
   });
 });
 

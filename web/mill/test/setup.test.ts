@@ -251,8 +251,8 @@ describe.runIf(hasMillPage)("the stock in the picture", () => {
     async () => {
       const { page } = mill;
       await mill.picture("stock-handles");
+      await expect.poll(async () => (await look()).length, { timeout: PATIENCE_MS }).toBe(6);
       const places = await look();
-      expect(places.length).toBe(6);
       const before = await box();
       expect(before).toEqual([
         [0, 0, -6],

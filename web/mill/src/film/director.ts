@@ -11,7 +11,7 @@ import type { Pose, Scene } from "../sight/scene.js";
 
 /** What the film sets in the page. */
 export interface Stage {
-  readonly scene: Pick<Scene, "pose" | "wholePose" | "setCurtain" | "setFill" | "setBare">;
+  readonly scene: Pick<Scene, "pose" | "wholePose" | "partPose" | "setCurtain" | "setFill" | "setBare">;
   readonly state: StateFrame | undefined;
   readonly duration: number; // of the program, s
   readonly rows: readonly Row[];
@@ -44,7 +44,6 @@ const TURN = 0.16;
 const LOW = new Vector3(0.4, -0.9, 0.36).normalize();
 const CLOSE = 0.38;
 // Towards the eye before the film: so low that the grooves reflect the light.
-const NEARER = 0.84;
 const GRAZING = new Vector3(0.42, -0.95, 0.4).normalize();
 // Lead before the first cut, s of the program, and the speed through the air before a cut whose time is not known.
 const LEAD_S = 0.3;
@@ -72,11 +71,8 @@ export const PRELUDE: Shot[] = [
       scene.setBare(true);
       send({ op: "seek", t_s: duration });
     },
-    camera: ({ scene }, elapsed) => {
-      const towards = GRAZING.clone().applyAxisAngle(new Vector3(0, 0, 1), TURN * elapsed);
-      const whole = scene.wholePose();
-      return { ...whole, towards, distance: NEARER * whole.distance };
-    },
+    camera: ({ scene }, elapsed) =>
+      scene.partPose(GRAZING.clone().applyAxisAngle(new Vector3(0, 0, 1), TURN * elapsed)),
   },
 ];
 

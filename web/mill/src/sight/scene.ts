@@ -30,7 +30,7 @@ import type { View } from "../keep/moment.js";
 import { t } from "../texts/texts.js";
 import type { Triangles } from "../keep/triangles.js";
 import { Contact } from "./contact.js";
-import { centre, distanceTo, type Free } from "./framing.js";
+import { centre, cornersOf, eyeFor, type Free } from "./framing.js";
 import { HeatMap, type Colouring } from "./heat_map.js";
 import { Light } from "./light.js";
 import { PartMaterial } from "./metal.js";
@@ -44,10 +44,13 @@ import { Tool } from "./tool.js";
 const PIXEL_RATIO_CAP = 2;
 // From the front right, a little from above.
 const VIEW = new Vector3(0.42, -0.95, 0.62).normalize();
-// Share of the free window that the part fills.
+// Share of the free window that the part fills, and with nothing beside it.
 const FILLED = 0.86;
-// Share of the part's size that the tool is above it.
-const TOOL_ABOVE = 0.25;
+const FILLED_ALONE = 0.96;
+// Turns of a part that together cover what it fills while it turns.
+const TURNS = 16;
+// Room for the tool: above the part by this share of its size, and where it stands no farther from the part.
+const TOOL_ROOM = 0.25;
 
 /** The camera looks at `target` from the direction `towards` (unit) at a distance, mm. */
 export interface Pose {
@@ -119,6 +122,8 @@ export class Scene {
   private free: (() => Free) | undefined;
   // The camera stands where fit() put it.
   private fitted = false;
+  // Where the tool stands before the first move and after the last.
+  private stands: Vector3[] = [];
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -159,6 +164,7 @@ export class Scene {
 
   begin(job: JobFrame): void {
     this.job = job;
+    this.stands = [];
     this.designed.clear();
     this.part.begin(job);
     this.heatMap.begin(job.cutters);
@@ -176,6 +182,9 @@ export class Scene {
 
   addPath(frame: PathFrame): void {
     this.pass.takePath(frame);
+    const { points } = frame;
+    this.stands = points.length > 0 ? [0, points.length - 3].map((at) => new Vector3().fromArray(points, at)) : [];
+    if (this.fitted) this.fit();
     this.draw();
   }
 
@@ -328,18 +337,44 @@ export class Scene {
     this.pose = this.wholePose();
     this.fitted = true;
   }
+  /** The whole part with room for the tool, and where it stands at first and at last if that is near. */
   wholePose(): Pose {
     const box = this.blank();
-    box.max.z += TOOL_ABOVE * this.extent();
+    box.max.z += TOOL_ROOM * this.extent();
+    const points = cornersOf(box);
+    const radius = Math.max(...this.job!.cutters.map((cutter) => cutter.radius), 0);
+    for (const { x, y, z } of this.stands.filter((tip) => box.distanceToPoint(tip) < TOOL_ROOM * this.extent())) {
+      const cutter = new Box3().setFromCenterAndSize(
+        new Vector3(x, y, z + radius),
+        new Vector3().setScalar(2 * radius),
+      );
+      points.push(...cornersOf(cutter));
+    }
+    return this.poseOf(points, VIEW, FILLED);
+  }
+  /** The part alone from any side: nothing of it leaves the picture while it turns. */
+  partPose(towards: Vector3): Pose {
+    const box = this.blank();
+    const middle = box.getCenter(new Vector3());
+    const up = new Vector3(0, 0, 1);
+    const points = cornersOf(box).flatMap((corner) =>
+      Array.from({ length: TURNS }, (_, n) =>
+        corner
+          .clone()
+          .sub(middle)
+          .applyAxisAngle(up, (2 * Math.PI * n) / TURNS)
+          .add(middle),
+      ),
+    );
+    return this.poseOf(points, towards, FILLED_ALONE);
+  }
+  private poseOf(points: Vector3[], towards: Vector3, filled: number): Pose {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     const free = this.free?.() ?? { x: 0, y: 0, width, height };
     centre(this.camera, width, height, free);
-    const share = { width: (FILLED * free.width) / width, height: (FILLED * free.height) / height };
-    return {
-      target: box.getCenter(new Vector3()),
-      towards: VIEW.clone(),
-      distance: distanceTo(box, VIEW, this.camera, share),
-    };
+    const share = { width: (filled * free.width) / width, height: (filled * free.height) / height };
+    const middle = this.blank().getCenter(new Vector3());
+    return { towards: towards.clone(), ...eyeFor(points, middle, towards, this.camera, share) };
   }
   get pose(): Pose {
     const target = this.controls.target.clone();
