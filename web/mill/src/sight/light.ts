@@ -116,6 +116,12 @@ export class Light {
     this.renderer.shadowMap.needsUpdate = true;
   }
 
+  // The studio goes round the part with the viewer, so that metal is as bright and grooves read as well from every side as
+  // from the side `usual`. Both directions are those from the part.
+  follow(viewer: Vector3, usual: Vector3): void {
+    this.scene.environmentRotation.z = Math.atan2(viewer.y, viewer.x) - Math.atan2(usual.y, usual.x);
+  }
+
   // Light and shadow for a part in this box; the tool is up to `above` over it, mm.
   begin(box: Box3, above: number): void {
     const centre = box.getCenter(new Vector3());

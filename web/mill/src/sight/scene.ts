@@ -453,6 +453,7 @@ export class Scene {
       return;
     }
     this.resize();
+    this.light.follow(this.camera.position.clone().sub(this.controls.target), VIEW);
     // Draw the part first. The shaders of the other objects are made for the next picture.
     const around = this.seen
       ? []
