@@ -78,7 +78,8 @@ export class StockHandles {
   }
 
   private near({ offsetX, offsetY }: PointerEvent): Face | undefined {
-    if (!this.box) return undefined;
+    // A place that is measured may lie below a handle.
+    if (!this.box || this.scene.canvas.classList.contains("measuring")) return undefined;
     let [best, least]: [Face | undefined, number] = [undefined, REACH_PX];
     for (const face of FACES) {
       const { x, y } = this.placeOf(face);
