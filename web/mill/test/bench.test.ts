@@ -12,7 +12,7 @@ vi.stubGlobal("document", {});
 const { bandWords, powerOf, sharesOf } = await import("../src/panels/now.js");
 const { LineLoads, lineTimes } = await import("../src/panels/program.js");
 const { judge } = await import("../src/panels/verdict.js");
-const { spreadOf } = await import("../src/panels/colours.js");
+const { fullScaleOf, spreadOf } = await import("../src/panels/colours.js");
 
 describe("a lane", () => {
   it("shows the largest value of each column, and nothing where there is none", () => {
@@ -193,6 +193,14 @@ describe("the spread of deviations", () => {
     expect(bars[0]).toBeCloseTo(2 / 6, 6);
     expect(bars[20]).toBeCloseTo(2 / 6, 6);
     expect(bars[40]).toBeCloseTo(2 / 6, 6);
+  });
+  it("has a full scale at which 98 of 100 differ in colour, and no lug hides the rest", () => {
+    const cusps = Array.from({ length: 1000 }, (_, n) => 0.278 * (n / 999));
+    expect(fullScaleOf(cusps)).toBe(0.3);
+    expect(fullScaleOf([...cusps, ...Array.from({ length: 15 }, () => 3)])).toBe(0.3);
+    expect(fullScaleOf(cusps.map((off) => -off / 100))).toBe(0.003);
+    expect(fullScaleOf([0, 0])).toBe(0.001);
+    expect(fullScaleOf([])).toBeUndefined();
   });
   it("of nothing is nothing", () => {
     expect(spreadOf([], 0.1, 0.05)).toMatchObject({ within: 0, count: 0 });

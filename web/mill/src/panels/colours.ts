@@ -4,6 +4,7 @@
 
 import { fitToScreen } from "@tribo/ui/canvas";
 import { element } from "@tribo/ui/dom";
+import { roundUp } from "../lanes/bins.js";
 import { diverging, type Colouring } from "../sight/heat_map.js";
 import { css, showLegend } from "../sight/legend.js";
 import { fixed, fromField, lengthUnit, lengthWords, onUnit, preciseLength, toField } from "../texts/figures.js";
@@ -36,6 +37,27 @@ export function spreadOf(deviations: Iterable<number>, range: number, tolerance:
   return { bars, within: count > 0 ? good / count : 0, count };
 }
 
+// The colours end at the largest deviation of this share of the vertices, so that a lug does not hide the rest; and not below.
+const FULL_SHARE = 0.98;
+const LEAST_FULL = 1e-3;
+const CLASSES_A_DECADE = 20;
+
+/** A full scale at which the colours of these deviations differ, mm; undefined where there are none. */
+export function fullScaleOf(deviations: Iterable<number>): number | undefined {
+  // Classes by logarithm: the values need not be kept and sorted.
+  const classes: number[] = [];
+  let count = 0;
+  for (const off of deviations) {
+    const at = Math.max(Math.ceil(CLASSES_A_DECADE * Math.log10(Math.abs(off) / LEAST_FULL)), 0);
+    classes[at] = (classes[at] ?? 0) + 1;
+    ++count;
+  }
+  if (count === 0) return undefined;
+  let [at, sum] = [-1, 0];
+  while (sum < FULL_SHARE * count) sum += classes[++at] ?? 0;
+  return Number(roundUp(LEAST_FULL * 10 ** (at / CLASSES_A_DECADE)).toPrecision(2));
+}
+
 export class Colours {
   readonly choice = element<HTMLSelectElement>("colouring");
   private readonly scale = element<HTMLInputElement>("scale");
@@ -43,12 +65,15 @@ export class Colours {
   private readonly histogram = element<HTMLCanvasElement>("histogram");
   private readonly pointed = element("pointed");
   private toleranceMm = 0.05;
+  // Until the user sets it, the full scale follows the part.
+  private ownScale = false;
   now: Colouring = "plain";
 
   constructor(
     private readonly scene: Scene,
     private readonly say: (text: string) => void,
   ) {
+    this.scale.addEventListener("change", () => (this.ownScale = true));
     for (const input of [this.choice, this.scale, this.tolerance])
       input.addEventListener("change", () => this.choose(this.choice.value));
     scene.canvas.addEventListener("pointermove", (event) => this.point(event));
@@ -71,7 +96,8 @@ export class Colours {
     element("scale-label").hidden = !compares;
     element("tolerance-label").hidden = wanted !== "deviation";
     const full = fromField(Number(this.scale.value));
-    if (full > 0) this.scene.heatMap.scale.deviation = full;
+    if (this.ownScale && full > 0) this.scene.heatMap.scale.deviation = full;
+    if (compares) this.followPart();
     const within = fromField(Number(this.tolerance.value));
     if (within > 0) this.toleranceMm = within;
     this.scene.setColouring(wanted);
@@ -86,8 +112,19 @@ export class Colours {
     this.renew();
   }
 
+  // A scale that is too short, or more than twice too long, is set anew.
+  private followPart(): boolean {
+    const { scale } = this.scene.heatMap;
+    const fits = this.ownScale ? undefined : fullScaleOf(this.scene.part.deviations());
+    if (fits === undefined || (scale.deviation >= fits && scale.deviation <= 2 * fits)) return false;
+    scale.deviation = fits;
+    this.scale.value = toField(fits);
+    return true;
+  }
+
   private renew(): void {
     const { heatMap, job } = this.scene;
+    if ((this.now === "deviation" || this.now === "scallop") && this.followPart()) this.scene.setColouring(this.now);
     showLegend(this.now, heatMap, job?.chipLimits);
     const compares = this.now === "deviation";
     this.histogram.hidden = element("within").hidden = !compares;
