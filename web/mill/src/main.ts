@@ -19,6 +19,7 @@ import { listenToVideo } from "./keep/video.js";
 import { FeelPanel } from "./panels/feel.js";
 import { listenToFiles } from "./sources/file_input.js";
 import { Incoming } from "./incoming.js";
+import { freeOf, OVER_STAGE } from "./panels/free.js";
 import { recall, remember } from "./page.js";
 import { advise, say } from "./panels/notice.js";
 import { listenToLook } from "./panels/look.js";
@@ -274,13 +275,9 @@ element("show-panel").addEventListener("click", () => card.tellStock());
 listenToProgramSheet();
 listenToMoreLanes((all) => lanes.showAll(all));
 // Panels leave the rest of the window to the part.
-scene.keepFree(() => {
-  const { x, y, width, height } = element("stage").getBoundingClientRect();
-  // Before the film the panels are away, and its buttons lie below the part.
-  if (document.body.dataset.film !== "prelude") return { x, y, width, height };
-  return { x: 0, y, width: innerWidth, height: element("film-buttons").getBoundingClientRect().top - y };
-});
-new ResizeObserver(() => scene.centre()).observe(element("stage"));
+scene.keepFree(() => freeOf(document.body.dataset.film === "prelude"));
+const shapes = new ResizeObserver(() => scene.centre());
+for (const id of ["stage", ...OVER_STAGE]) shapes.observe(element(id));
 toggles("show-plots", "plots", async () => {
   const loaded = await import("./panels/plots.js");
   incoming.plots ??= new loaded.Plots(element("plots"), history, sound, seek);

@@ -79,6 +79,8 @@ const AXIS_PX = 17;
 const FONT = "11px system-ui, sans-serif";
 const RENEWED_MS = 250;
 const GAP_PX = 5;
+// A window so low has room for one lane.
+const LOW = "(max-height: 480px)";
 
 export class Lanes {
   private readonly bins = Object.fromEntries(ORDER.map((name) => [name, new Bins()])) as Record<Quantity, Bins>;
@@ -98,6 +100,7 @@ export class Lanes {
   // Values have come that are not in it.
   private stale = true;
   private readonly inks = new Map<string, string>();
+  private readonly lowWindow = matchMedia(LOW);
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -107,6 +110,7 @@ export class Lanes {
     slider.addEventListener("pointermove", ({ offsetX }) => this.point((offsetX / slider.clientWidth) * this.duration));
     slider.addEventListener("pointerleave", () => this.point(undefined));
     new ResizeObserver(() => this.draw()).observe(canvas);
+    this.lowWindow.addEventListener("change", () => this.lay());
     onUnit(() => this.draw());
     new MutationObserver(() => this.draw()).observe(document.documentElement, { attributeFilter: ["data-theme"] });
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
@@ -173,7 +177,7 @@ export class Lanes {
   private shown(): Quantity[] {
     return ORDER.filter((name) => {
       const known = name !== "multiplier" || this.bins.multiplier.largest > 0;
-      return known && (this.all || LANES[name].first);
+      return known && (this.all || (this.lowWindow.matches ? name === "force" : LANES[name].first));
     });
   }
 
