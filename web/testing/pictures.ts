@@ -71,6 +71,31 @@ export function differing(page: Page, a: Buffer, b: Buffer): Promise<number> {
   );
 }
 
+// Levels of 255: the light ground is lighter, a part and a tool in the plain light are darker.
+const DARK = 195;
+
+/** The share of the pixels of the page that a part or a tool covers, in the light theme. */
+export async function darkShare(page: Page, clip: Clip): Promise<number> {
+  const whole = (await page.screenshot({ clip })).toString("base64");
+  return page.evaluate(
+    async ([png, most]) => {
+      const image = new Image();
+      image.src = `data:image/png;base64,${png}`;
+      await image.decode();
+      const canvas = document.createElement("canvas");
+      canvas.width = image.naturalWidth;
+      canvas.height = image.naturalHeight;
+      const c = canvas.getContext("2d")!;
+      c.drawImage(image, 0, 0);
+      const { data } = c.getImageData(0, 0, canvas.width, canvas.height);
+      let dark = 0;
+      for (let n = 0; n < data.length; n += 4) if (Math.max(data[n]!, data[n + 1]!, data[n + 2]!) < most) ++dark;
+      return dark / (canvas.width * canvas.height);
+    },
+    [whole, DARK] as const,
+  );
+}
+
 /** The stored picture. With TRIBO_STORE_PICTURES, `now` is stored first. */
 export function stored(path: string, now: Buffer): Buffer {
   if (process.env.TRIBO_STORE_PICTURES && now.length > 0) {

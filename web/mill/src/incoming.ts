@@ -75,11 +75,15 @@ export class Incoming implements Listener {
   private readonly assumed = new Assumed();
   private readonly frameCache = new FrameCache();
   private readonly record = listenToRecord(this.frameCache);
-  private readonly collisions = new LineList<CollisionFrame>("collisions", ({ tip, time }) => {
-    this.parts.scene.overlays.setMark(tip);
-    this.parts.scene.draw();
-    this.parts.transport.seek(time);
-  });
+  // The verdict names the first.
+  private readonly collisions = new LineList<CollisionFrame>(
+    "collisions",
+    (hit) => {
+      this.mark(hit);
+      this.parts.transport.seek(hit.time);
+    },
+    2,
+  );
 
   /** `lost`: whether it is the current source whose line to the engine was lost. */
   constructor(
@@ -234,7 +238,14 @@ export class Incoming implements Listener {
     const hit = this.hits.find(({ time }) => time > before.time && time <= now.time);
     if (!hit || this.stoppedAtHit || !(this.parts.transport.pause() || before.playing)) return;
     this.stoppedAtHit = true;
+    this.mark(hit);
     say(t("Line {line}: {what}. The clock stands; Play goes on.", { line: hit.line, what: hit.what }));
+  }
+
+  /** Marks where a collision is. */
+  mark({ tip }: CollisionFrame): void {
+    this.parts.scene.overlays.setMark(tip);
+    this.parts.scene.draw();
   }
 
   /** Another source begins: its first frames restart the picture. */

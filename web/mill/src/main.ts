@@ -67,7 +67,9 @@ const seek = (t_s: number) => transport.seek(t_s);
 const lanes = new Lanes(element<HTMLCanvasElement>("lanes"), element("time"), (time) => history.rowAt(time));
 const program = new Program(seek);
 const numbers = new Now();
-const verdict = new Verdict(({ time: at, line: of }) => {
+const verdict = new Verdict(({ kind, time: at, line: of }) => {
+  const hit = incoming.hits.find(({ time }) => kind === "damage" && time === at);
+  if (hit) incoming.mark(hit);
   if (at === undefined) program.choose(of);
   else seek(at);
 });

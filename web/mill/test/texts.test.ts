@@ -109,7 +109,7 @@ describe.runIf(hasMillPage)("the page in German", () => {
       await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
       await mill.until("job.toml", "job");
       await page.fill("#time", "1000");
-      await page.waitForSelector("#collisions:not([hidden])", { timeout: PATIENCE_MS });
+      await page.waitForSelector('#verdict[data-damage="true"]', { timeout: PATIENCE_MS });
       await page.click("#show-panel");
       await page.waitForSelector("#setup-card:not([hidden])", { timeout: PATIENCE_MS });
       await page.click("#show-plots");

@@ -17,9 +17,11 @@ export class LineList<Place extends { line: number }> {
   private readonly rest = document.createElement("p");
   private more = 0;
 
+  /** Shorter lists are not shown. */
   constructor(
     id: string,
     private readonly go: (place: Place) => void,
+    private readonly least = 1,
   ) {
     this.box = element(id);
     this.list = this.box.querySelector("ol")!;
@@ -45,7 +47,7 @@ export class LineList<Place extends { line: number }> {
     button.addEventListener("click", () => this.go(place));
     item.append(button);
     this.list.append(item);
-    this.box.hidden = false;
+    this.box.hidden = this.list.childElementCount < this.least;
   }
 }
 
