@@ -70,7 +70,9 @@ class Judge {
         std::string text =
             "line " + std::to_string(first.line) + ": " + std::string(milling::name(first.kind));
         std::ranges::replace(text, '-', ' ');
-        if (all.size() > 1) text += ", and " + std::to_string(all.size() - 1) + " more collisions";
+        if (all.size() > 1)
+            text += ", and " + std::to_string(all.size() - 1) +
+                    (all.size() == 2 ? " more collision" : " more collisions");
         findings_.push_back({Outcome::over, std::move(text), first.line, {}});
     }
 
