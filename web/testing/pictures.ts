@@ -73,27 +73,41 @@ export function differing(page: Page, a: Buffer, b: Buffer): Promise<number> {
 
 // Levels of 255: the light ground is lighter, a part and a tool in the plain light are darker.
 const DARK = 195;
+// A red mark has so much more red than green and blue.
+const RED = 60;
 
 /** The share of the pixels of the page that a part or a tool covers, in the light theme. */
 export async function darkShare(page: Page, clip: Clip): Promise<number> {
+  return share(await pixelsOf(page, clip), (r, g, b) => Math.max(r, g, b) < DARK);
+}
+/** The share of the pixels of the page that are red. */
+export async function redShare(page: Page, clip: Clip): Promise<number> {
+  return share(await pixelsOf(page, clip), (r, g, b) => r - Math.max(g, b) > RED);
+}
+
+function share(pixels: Uint8Array, counts: (r: number, g: number, b: number) => boolean): number {
+  let count = 0;
+  for (let n = 0; n < pixels.length; n += 4) if (counts(pixels[n]!, pixels[n + 1]!, pixels[n + 2]!)) ++count;
+  return count / (pixels.length / 4);
+}
+
+async function pixelsOf(page: Page, clip: Clip): Promise<Uint8Array> {
   const whole = (await page.screenshot({ clip })).toString("base64");
-  return page.evaluate(
-    async ([png, most]) => {
-      const image = new Image();
-      image.src = `data:image/png;base64,${png}`;
-      await image.decode();
-      const canvas = document.createElement("canvas");
-      canvas.width = image.naturalWidth;
-      canvas.height = image.naturalHeight;
-      const c = canvas.getContext("2d")!;
-      c.drawImage(image, 0, 0);
-      const { data } = c.getImageData(0, 0, canvas.width, canvas.height);
-      let dark = 0;
-      for (let n = 0; n < data.length; n += 4) if (Math.max(data[n]!, data[n + 1]!, data[n + 2]!) < most) ++dark;
-      return dark / (canvas.width * canvas.height);
-    },
-    [whole, DARK] as const,
-  );
+  const pixels = await page.evaluate(async (png) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${png}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    canvas.width = image.naturalWidth;
+    canvas.height = image.naturalHeight;
+    const c = canvas.getContext("2d")!;
+    c.drawImage(image, 0, 0);
+    const { data } = c.getImageData(0, 0, canvas.width, canvas.height);
+    let bytes = "";
+    for (let n = 0; n < data.length; n += 8192) bytes += String.fromCharCode(...data.subarray(n, n + 8192));
+    return btoa(bytes);
+  }, whole);
+  return Buffer.from(pixels, "base64");
 }
 
 /** The stored picture. With TRIBO_STORE_PICTURES, `now` is stored first. */

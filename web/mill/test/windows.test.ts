@@ -5,7 +5,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { file, PATIENCE_MS } from "../../testing/browser.js";
 import { hasMillPage, JOB, MillPage, PROGRAM } from "../../testing/mill_page.js";
-import { darkShare, type Clip } from "../../testing/pictures.js";
+import { darkShare, redShare, type Clip } from "../../testing/pictures.js";
 
 const PHONE = { width: 390, height: 844 };
 // Pixels along a border.
@@ -102,7 +102,29 @@ describe.runIf(hasMillPage)("the bench in other windows", () => {
   );
 
   it(
-    "says a collision once and marks its place; on a tablet nothing of the verdict is cut off",
+    "shows all of a bad verdict on a phone, and marks the collision",
+    async () => {
+      await page.setViewportSize(PHONE);
+      await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
+      await mill.until("job.toml", "job");
+      await page.fill("#time", "1000");
+      await page.waitForSelector('#verdict[data-damage="true"]', { timeout: PATIENCE_MS });
+      const cutOff = () =>
+        page.evaluate(() => {
+          const { scrollHeight, clientHeight } = document.getElementById("cards")!;
+          return scrollHeight - clientHeight;
+        });
+      await expect.poll(cutOff, LONG).toBe(0);
+      const stage = await box("stage");
+      expect(await redShare(page, stage)).toBe(0);
+      await page.click("#verdict-places button[data-kind=damage]");
+      await expect.poll(() => redShare(page, stage), LONG).toBeGreaterThan(0.0003);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
+    "says a collision once; on a tablet nothing of the verdict is cut off",
     async () => {
       await page.setViewportSize({ width: 820, height: 1180 });
       await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
