@@ -153,6 +153,27 @@ TEST(Contour, that_is_rough_is_closed_and_near_the_surface) {
     EXPECT_LT(5 * off, rough.positions.size());
 }
 
+// Where it is cut the block keeps its edges: of its sides no strip is taken for machined surface.
+TEST(Contour, that_is_rough_leaves_the_faces_of_the_blank_flat_up_to_their_edges) {
+    auto field = block(0.3);
+    for (double y = 5; y < 26; y += 2)
+        field.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
+    ContourOptions options;
+    options.rough = true;
+    const auto area_on_blank = [&](const TriangleMesh& mesh) {
+        TriangleMesh faces;
+        faces.positions = mesh.positions;
+        for (const Triangle& t : mesh.triangles) {
+            if (std::ranges::all_of(t, [&](std::uint32_t v) {
+                    return std::abs(field.blank().distance_mm(mesh.position(v))) < 1e-3;
+                }))
+                faces.triangles.push_back(t);
+        }
+        return area_mm2(faces);
+    };
+    EXPECT_NEAR(area_on_blank(contour(field, serial_for, options)) / area_on_blank(contour(field)), 1, 5e-3);
+}
+
 TEST(Contour, keeps_corners_sharp) {
     auto f = block(0.3);
     f.carve(std::make_unique<BoxShape>(Box3{{10.1, 8.2, -6.3}, {20.4, 17.7, 5}}));

@@ -220,7 +220,30 @@ Crossing BrickNodes::rough_crossing(int axis, int node, double d0, double d1) co
     x.point = node_mm(node);
     x.point[axis] += x.along * field_.cell_mm();
     x.edge = static_cast<std::uint16_t>(kLatticeNodes * axis + node);
-    x.normal = rough_normal(x.along < 0.5 ? node : node + kStep[axis]);
+    // The faces of the blank stay flat up to their edges: machined ones are told from them by that. Beside
+    // them differences mix the two.
+    const int other = node + kStep[axis];
+    const BrickRef ref = ref_between(node, other);
+    const ShapeId here = shape_at(ref, node), there = shape_at(ref, other);
+    if (here == 0 || there == 0) {
+        const ShapeId outer = d0 > 0 ? here : there;
+        const auto distance_mm = [&](int n) { return field_.sample_piece(outer, node_mm(n)).distance_mm; };
+        const double from = distance_mm(node), to = distance_mm(other);
+        if ((from < 0) != (to < 0)) {
+            const auto seen_at = [&](double along) {
+                x.along = along;
+                x.point[axis] = node_mm(node)[axis] + along * field_.cell_mm();
+                return field_.sample_piece(outer, x.point);
+            };
+            // One step of Newton: at an edge of the shape the distance bends between the ends.
+            const contact::SurfaceSample s = seen_at(from / (from - to));
+            const double rate = field_.cell_mm() * s.normal[axis],
+                         step = rate != 0 ? s.distance_mm / rate : 0;
+            x.normal = seen_at(std::clamp(x.along - step, 0.0, 1.0)).normal;
+            return x;
+        }
+    }
+    x.normal = rough_normal(x.along < 0.5 ? node : other);
     return x;
 }
 
