@@ -22,11 +22,23 @@ const ALL = [
   "--js-flags=--expose-gc",
 ];
 
+/** A browser whose pages may take PATIENCE_MS for a step: a busy machine needs longer than the half minute that it allows. */
+async function started(args: string[]): Promise<Browser> {
+  const browser = await chromium.launch({ executablePath: CHROMIUM, headless: true, args });
+  const open = browser.newContext.bind(browser);
+  browser.newContext = async (options) => {
+    const context = await open(options);
+    context.setDefaultTimeout(PATIENCE_MS);
+    return context;
+  };
+  return browser;
+}
+
 export function launch(...more: string[]): Promise<Browser> {
-  return chromium.launch({ executablePath: CHROMIUM, headless: true, args: [...ALL, ...more] });
+  return started([...ALL, ...more]);
 }
 export function launchWithoutGraphics(): Promise<Browser> {
-  return chromium.launch({ executablePath: CHROMIUM, headless: true, args: [...QUIET, "--disable-3d-apis"] });
+  return started([...QUIET, "--disable-3d-apis"]);
 }
 
 /** A text file, as an input of files takes it. */
