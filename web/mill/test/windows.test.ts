@@ -138,11 +138,12 @@ describe.runIf(hasMillPage)("the bench in other windows", () => {
       await page.fill("#time", "1000");
       await page.waitForSelector("#collisions:not([hidden])", { timeout: PATIENCE_MS });
       await mill.picture("tablet_collisions");
-      const hidden = await page.evaluate(() => {
-        const { scrollHeight, clientHeight, scrollWidth, clientWidth } = document.getElementById("cards")!;
-        return [scrollHeight - clientHeight, scrollWidth - clientWidth];
-      });
-      expect(hidden).toEqual([0, 0]);
+      const hidden = () =>
+        page.evaluate(() => {
+          const { scrollHeight, clientHeight, scrollWidth, clientWidth } = document.getElementById("cards")!;
+          return [scrollHeight - clientHeight, scrollWidth - clientWidth];
+        });
+      await expect.poll(hidden, LONG).toEqual([0, 0]);
       expect((await box("verdict")).width).toBeGreaterThan((await box("collisions")).width);
     },
     PATIENCE_MS,

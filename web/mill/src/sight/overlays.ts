@@ -58,8 +58,10 @@ export class Overlays {
     this.strain = line(palette.finger);
     this.mark = new Mesh(
       new SphereGeometry(1, 24, 16),
-      new MeshBasicMaterial({ color: palette.force, transparent: true, opacity: 0.7 }),
+      // Seen through the tool, which stands there.
+      new MeshBasicMaterial({ color: palette.force, transparent: true, opacity: 0.7, depthTest: false }),
     );
+    this.mark.renderOrder = 2;
     this.finger.add(this.skin, this.hand, this.strain, this.felt);
     this.group.add(this.force, this.finger, this.texture, this.measure, this.mark);
     for (const part of [this.force, this.finger, this.mark]) part.visible = false;
