@@ -175,10 +175,10 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
         return felt();
       };
       await pen("mousePressed", 0.2);
-      const light = await settled(0.2);
+      let light = 0;
+      await expect.poll(async () => (light = await settled(0.2)), { timeout: PATIENCE_MS / 2 }).toBeGreaterThan(0.02);
       const firm = await settled(0.8);
       await pen("mouseReleased", 0);
-      expect(light).toBeGreaterThan(0.02);
       expect(firm).toBeGreaterThan(2 * light);
       await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "1") === 0, null, {
         timeout: PATIENCE_MS,
