@@ -21,8 +21,9 @@ constexpr double kAlike = 0.5;
 constexpr double kBendStep = 1e-3, kTooBent = 1.01;
 // A side that is this share of a way behind does not come near over the way.
 constexpr double kBehind = 0.1;
-// Bends along an edge are measured over steps of this share along it, and of this length, mm.
-constexpr double kAlong = 0.9, kLeastAlong = 1e-3;
+// Bends along an edge are measured over steps of this share along it, and of this length, mm: over shorter
+// ones the normals of searched sweeps tell of their errors.
+constexpr double kAlong = 0.9, kLeastAlong = 1e-2;
 
 // For places where the planes do not agree (normals of swept edges jump): follows the surface as long as the
 // distance falls.
@@ -130,7 +131,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         const double step_mm = std::min(size, longest_mm);
         moved_mm += step_mm;
         q += there ? step : (longest_mm / size) * step;
-        // A short step tells of the errors of the normals, one to the edge nothing of the bend along it.
+        // A step to the edge tells nothing of the bend along it.
         along_mm = on_edge ? dot(step, edge.along) * (step_mm / size) : 0;
         if (std::abs(along_mm) < std::max(kAlong * step_mm, kLeastAlong)) along_mm = 0;
     }
