@@ -9,7 +9,6 @@
 #include "app/progress.hpp"
 #include "app/render/part_deviation.hpp"
 #include "app/render/render_sinks.hpp"
-#include "app/render/stock_faces.hpp"
 #include "field/contour/contour.hpp"
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
@@ -22,6 +21,7 @@
 #include "session/chatter/surface_recorder.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/mill_warnings.hpp"
+#include "session/cut/stock_faces.hpp"
 
 namespace tribo::app {
 namespace {
@@ -225,8 +225,8 @@ FileResult<std::optional<ComparedRun>> mill_run(ComparedInput input, const std::
     if (chatter) traces = chatter->take_surface();
     if (bending) traces = bending->take();
     run.mesh = field::contour(run.session->stock(), parallel);
-    run.untouched =
-        untouched_triangles(run.mesh, vertices_on_blank(run.mesh, run.session->stock().blank(), parallel));
+    run.untouched = session::untouched_triangles(
+        run.mesh, session::vertices_on_blank(run.mesh, run.session->stock().blank(), parallel));
     if (auto done = measure(prepared, std::move(traces), parallel, run); !done)
         return std::unexpected(done.error());
     return std::optional<ComparedRun>(std::move(run));

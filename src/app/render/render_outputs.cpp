@@ -9,7 +9,6 @@
 #include "app/render/part_deviation.hpp"
 #include "app/render/report_chatter.hpp"
 #include "app/render/report_sheet.hpp"
-#include "app/render/stock_faces.hpp"
 #include "base/text/decimal.hpp"
 #include "field/contour/contour.hpp"
 #include "files/model/gltf.hpp"
@@ -19,10 +18,13 @@
 #include "report/surface_csv.hpp"
 #include "session/chatter/probability.hpp"
 #include "session/chatter/steady_bending.hpp"
+#include "session/cut/stock_faces.hpp"
 
 namespace tribo::app {
 namespace {
 
+// The colours of deviations end at this at least.
+constexpr double kLeastRangeMm = 1e-3;
 constexpr std::size_t kVerticesAtOnce = 4096;
 
 // Returns a text about the sources of the sound. It says that not all of them are measured.
@@ -142,7 +144,7 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session,
     std::vector<std::uint8_t> on_blank;
     if (call_.wants("mesh") || call_.wants("report")) {
         mesh = field::contour(session.stock(), parallel_);
-        on_blank = vertices_on_blank(mesh, session.stock().blank(), parallel_);
+        on_blank = session::vertices_on_blank(mesh, session.stock().blank(), parallel_);
         summary.triangles = mesh.triangles.size();
     }
     if (call_.wants("mesh")) {
@@ -207,7 +209,7 @@ FileResult<void> RenderOutputs::write_mesh(const TriangleMesh& mesh, std::span<c
         return true;
     });
     if (auto done = stl->finish(); !done) return done;
-    return files::write_glb(folder_.file("machined.glb"), mesh, untouched_triangles(mesh, on_blank));
+    return files::write_glb(folder_.file("machined.glb"), mesh, session::untouched_triangles(mesh, on_blank));
 }
 
 FileResult<void> RenderOutputs::compare(const session::MillSession& session, report::Summary& summary) {
@@ -244,14 +246,14 @@ report::ReportPart RenderOutputs::report_part(const report::Summary& summary, co
         const surface::FormError::Extremes& e = form_error_.extremes();
         part.deviation_from = session::bends_steadily(loaded_.job) ? "deviation by bending of the tool"
                                                                    : "deviation by bending of tool and part";
-        part.deviation_range_mm = std::max({e.left_mm, e.overcut_mm, kOnFaceMm});
+        part.deviation_range_mm = std::max({e.left_mm, e.overcut_mm, kLeastRangeMm});
         part.deviation_mm = std::move(bent_mm);
         return part;
     }
     // The colour scale ends at the largest deviation in machined areas. Areas that the tool never reached
     // exceed it.
     const double range = std::max(summary.scallop_max_mm.value_or(0), summary.gouge_max_mm.value_or(0));
-    part.deviation_range_mm = range > 0 ? range : std::max(summary.rest_max_mm.value_or(0), kOnFaceMm);
+    part.deviation_range_mm = range > 0 ? range : std::max(summary.rest_max_mm.value_or(0), kLeastRangeMm);
     part.deviation_mm = surface::deviations_of(part.mesh, *designed_, parallel_);
     for (std::size_t n = 0; n < bent_mm.size(); ++n) part.deviation_mm[n] += bent_mm[n];
     return part;
@@ -267,7 +269,7 @@ FileResult<void> RenderOutputs::write_report(const session::MillSession& session
                     std::to_string(session.setup().cutters.size()) +
                     (session.setup().cutters.size() == 1 ? " cutter" : " cutters");
     data.summary = summary;
-    const std::vector<std::uint8_t> sawn = untouched_triangles(mesh, on_blank);
+    const std::vector<std::uint8_t> sawn = session::untouched_triangles(mesh, on_blank);
     data.picture_png = files::png_bytes(report::draw_part(mesh, {}, {.on_ground = true, .sawn = sawn}));
     data.part = report_part(summary, mesh, std::move(on_blank));
     mesh = {};

@@ -9,6 +9,7 @@
 #include "base/hash.hpp"
 #include "field/contour/contour.hpp"
 #include "protocol/live_frame.hpp"
+#include "session/cut/stock_faces.hpp"
 #include "surface/deviation.hpp"
 
 namespace tribo::session {
@@ -18,8 +19,6 @@ using field::BrickCoord;
 
 // State of a chunk that was not examined yet.
 constexpr std::uint64_t kUnseen = 0;
-// A vertex this near to the surface of the blank is on it: the rounding of positions in single precision.
-constexpr double kOnBlankMm = 1e-3;
 // A chunk that changes after fewer updates was under the tool, and is not kept.
 constexpr std::uint64_t kSettled = 30;
 
@@ -47,16 +46,15 @@ std::uint32_t put_first(TriangleMesh& mesh, const field::Shape& blank) {
     const auto count = static_cast<std::uint32_t>(mesh.positions.size());
     std::vector<Point3f> positions, others;
     std::vector<std::uint32_t> place(count);
-    std::vector<char> on_blank(count);
+    const std::vector<std::uint8_t> on_blank = vertices_on_blank(mesh, blank, serial_for);
     for (std::uint32_t v = 0; v < count; ++v) {
-        on_blank[v] = std::abs(blank.distance_mm(mesh.position(v))) <= kOnBlankMm;
-        std::vector<Point3f>& part = on_blank[v] ? positions : others;
+        std::vector<Point3f>& part = on_blank[v] != 0 ? positions : others;
         place[v] = static_cast<std::uint32_t>(part.size());
         part.push_back(mesh.positions[v]);
     }
     const auto first = static_cast<std::uint32_t>(positions.size());
     for (std::uint32_t v = 0; v < count; ++v)
-        if (!on_blank[v]) place[v] += first;
+        if (on_blank[v] == 0) place[v] += first;
     positions.insert(positions.end(), others.begin(), others.end());
     mesh.positions = std::move(positions);
     for (Triangle& t : mesh.triangles) {

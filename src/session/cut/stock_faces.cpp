@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "app/render/stock_faces.hpp"
+#include "session/cut/stock_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tribo::app {
+namespace tribo::session {
 
 std::vector<std::uint8_t> vertices_on_blank(const TriangleMesh& mesh, const field::Shape& blank,
                                             const ParallelFor& parallel) {
     constexpr std::size_t kAtOnce = 4096;
+    constexpr double kOnBlankMm = 1e-3;
     const std::size_t count = mesh.positions.size();
     std::vector<std::uint8_t> on_blank(count);
     parallel((count + kAtOnce - 1) / kAtOnce, [&](std::size_t piece) {
         const std::size_t end = std::min(count, (piece + 1) * kAtOnce);
         for (std::size_t n = piece * kAtOnce; n < end; ++n) {
             const double off = blank.distance_mm(mesh.position(static_cast<std::uint32_t>(n)));
-            on_blank[n] = std::abs(off) <= kOnFaceMm ? 1 : 0;
+            on_blank[n] = std::abs(off) <= kOnBlankMm ? 1 : 0;
         }
     });
     return on_blank;
@@ -30,4 +31,4 @@ std::vector<std::uint8_t> untouched_triangles(const TriangleMesh& mesh,
     return untouched;
 }
 
-}  // namespace tribo::app
+}  // namespace tribo::session

@@ -10,16 +10,14 @@
 #include "base/parallel.hpp"
 #include "field/shape/shape.hpp"
 
-namespace tribo::app {
+namespace tribo::session {
 
-// A shallower cut counts as the face of the blank.
-inline constexpr double kOnFaceMm = 1e-3;
-
-// One per vertex: 1 on the surface of the blank.
+// One per vertex: 1 on the surface of the blank, or less than a micrometre off: positions have single
+// precision.
 std::vector<std::uint8_t> vertices_on_blank(const TriangleMesh& mesh, const field::Shape& blank,
                                             const ParallelFor& parallel);
 // One per triangle: 1 if all its vertices are on the blank. There the stock is untouched.
 std::vector<std::uint8_t> untouched_triangles(const TriangleMesh& mesh,
                                               std::span<const std::uint8_t> on_blank);
 
-}  // namespace tribo::app
+}  // namespace tribo::session
