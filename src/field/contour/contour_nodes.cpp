@@ -215,35 +215,40 @@ void BrickNodes::look_at_edge(int axis, int node, bool rough) {
 }
 
 Crossing BrickNodes::rough_crossing(int axis, int node, double d0, double d1) const {
-    Crossing x;
-    x.along = d0 / (d0 - d1);
-    x.point = node_mm(node);
-    x.point[axis] += x.along * field_.cell_mm();
-    x.edge = static_cast<std::uint16_t>(kLatticeNodes * axis + node);
-    // The faces of the blank stay flat up to their edges: machined ones are told from them by that. Beside
-    // them differences mix the two.
     const int other = node + kStep[axis];
     const BrickRef ref = ref_between(node, other);
     const ShapeId here = shape_at(ref, node), there = shape_at(ref, other);
+    // The faces of the blank stay flat up to their edges: machined ones are told from them by that. Beside
+    // them differences mix the two.
     if (here == 0 || there == 0) {
-        const ShapeId outer = d0 > 0 ? here : there;
-        const auto distance_mm = [&](int n) { return field_.sample_piece(outer, node_mm(n)).distance_mm; };
-        const double from = distance_mm(node), to = distance_mm(other);
-        if ((from < 0) != (to < 0)) {
-            const auto seen_at = [&](double along) {
-                x.along = along;
-                x.point[axis] = node_mm(node)[axis] + along * field_.cell_mm();
-                return field_.sample_piece(outer, x.point);
-            };
-            // One step of Newton: at an edge of the shape the distance bends between the ends.
-            const contact::SurfaceSample s = seen_at(from / (from - to));
-            const double rate = field_.cell_mm() * s.normal[axis],
-                         step = rate != 0 ? s.distance_mm / rate : 0;
-            x.normal = seen_at(std::clamp(x.along - step, 0.0, 1.0)).normal;
-            return x;
-        }
+        if (const auto x = crossing_of(d0 > 0 ? here : there, axis, node)) return *x;
     }
+    Crossing x = crossing_at(axis, node, d0 / (d0 - d1));
     x.normal = rough_normal(x.along < 0.5 ? node : other);
+    return x;
+}
+
+Crossing BrickNodes::crossing_at(int axis, int node, double along) const {
+    Crossing x;
+    x.along = along;
+    x.point = node_mm(node);
+    x.point[axis] += along * field_.cell_mm();
+    x.edge = static_cast<std::uint16_t>(kLatticeNodes * axis + node);
+    return x;
+}
+
+// Where the surface of one shape crosses the edge, by one step of Newton from the chord: at an edge of the
+// shape its distance bends between the ends. Nothing if both ends are on one side of it.
+std::optional<Crossing> BrickNodes::crossing_of(ShapeId shape, int axis, int node) const {
+    const auto sample = [&](Vec3 p) { return field_.sample_piece(shape, p); };
+    const double from = sample(node_mm(node)).distance_mm,
+                 to = sample(node_mm(node + kStep[axis])).distance_mm;
+    if ((from < 0) == (to < 0)) return std::nullopt;
+    const Crossing chord = crossing_at(axis, node, from / (from - to));
+    const contact::SurfaceSample s = sample(chord.point);
+    const double rate = field_.cell_mm() * s.normal[axis], step = rate != 0 ? s.distance_mm / rate : 0;
+    Crossing x = crossing_at(axis, node, std::clamp(chord.along - step, 0.0, 1.0));
+    x.normal = sample(x.point).normal;
     return x;
 }
 

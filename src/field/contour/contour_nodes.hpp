@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "field/carved/carved_field.hpp"
@@ -96,6 +97,8 @@ class BrickNodes {
     Crossing find_crossing(BrickRef ref, int axis, int node, double t0, double t1, double d0,
                            double d1) const;
     Crossing rough_crossing(int axis, int node, double d0, double d1) const;
+    Crossing crossing_at(int axis, int node, double along) const;
+    std::optional<Crossing> crossing_of(ShapeId shape, int axis, int node) const;
     Vec3 rough_normal(int node) const;
     ShapeId shape_at(BrickRef ref, int node) const;
     void find_thin(int axis, int node);
