@@ -46,29 +46,32 @@ export async function small(page: Page, clip: Clip): Promise<Buffer> {
 }
 
 /** The share of the pixels in which two PNGs of one size differ by more than SAME_LEVELS; 1 where the sizes differ. */
-export function differing(page: Page, a: Buffer, b: Buffer): Promise<number> {
-  return page.evaluate(
-    async ([first, second, same]) => {
-      const pixels = async (png: string) => {
-        const image = new Image();
-        image.src = `data:image/png;base64,${png}`;
-        await image.decode();
-        const canvas = document.createElement("canvas");
-        canvas.width = image.naturalWidth;
-        canvas.height = image.naturalHeight;
-        const c = canvas.getContext("2d")!;
-        c.drawImage(image, 0, 0);
-        return c.getImageData(0, 0, canvas.width, canvas.height);
-      };
-      const [x, y] = [await pixels(first), await pixels(second)];
-      if (x.width !== y.width || x.height !== y.height) return 1;
-      let off = 0;
-      for (let n = 0; n < x.data.length; n += 4)
-        if ([0, 1, 2].some((k) => Math.abs(x.data[n + k]! - y.data[n + k]!) > same)) ++off;
-      return off / (x.width * x.height);
-    },
-    [a.toString("base64"), b.toString("base64"), SAME_LEVELS] as const,
-  );
+export async function differing(page: Page, a: Buffer, b: Buffer): Promise<number> {
+  const [x, y] = [await decoded(page, a), await decoded(page, b)];
+  if (x.width !== y.width || x.data.length !== y.data.length) return 1;
+  let off = 0;
+  for (let n = 0; n < x.data.length; n += 4)
+    if ([0, 1, 2].some((k) => Math.abs(x.data[n + k]! - y.data[n + k]!) > SAME_LEVELS)) ++off;
+  return off / (x.data.length / 4);
+}
+
+/** The pixels of a PNG, four bytes each, by the page that has a decoder. */
+async function decoded(page: Page, png: Buffer): Promise<{ width: number; data: Buffer }> {
+  const { width, bytes } = await page.evaluate(async (base64) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${base64}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    canvas.width = image.naturalWidth;
+    canvas.height = image.naturalHeight;
+    const c = canvas.getContext("2d")!;
+    c.drawImage(image, 0, 0);
+    const { data } = c.getImageData(0, 0, canvas.width, canvas.height);
+    let text = "";
+    for (let n = 0; n < data.length; n += 8192) text += String.fromCharCode(...data.subarray(n, n + 8192));
+    return { width: canvas.width, bytes: btoa(text) };
+  }, png.toString("base64"));
+  return { width, data: Buffer.from(bytes, "base64") };
 }
 
 // Levels of 255: the light ground is lighter, a part and a tool in the plain light are darker.
@@ -77,37 +80,19 @@ const DARK = 195;
 const RED = 60;
 
 /** The share of the pixels of the page that a part or a tool covers, in the light theme. */
-export async function darkShare(page: Page, clip: Clip): Promise<number> {
-  return share(await pixelsOf(page, clip), (r, g, b) => Math.max(r, g, b) < DARK);
+export function darkShare(page: Page, clip: Clip): Promise<number> {
+  return share(page, clip, (r, g, b) => Math.max(r, g, b) < DARK);
 }
 /** The share of the pixels of the page that are red. */
-export async function redShare(page: Page, clip: Clip): Promise<number> {
-  return share(await pixelsOf(page, clip), (r, g, b) => r - Math.max(g, b) > RED);
+export function redShare(page: Page, clip: Clip): Promise<number> {
+  return share(page, clip, (r, g, b) => r - Math.max(g, b) > RED);
 }
 
-function share(pixels: Uint8Array, counts: (r: number, g: number, b: number) => boolean): number {
+async function share(page: Page, clip: Clip, counts: (r: number, g: number, b: number) => boolean): Promise<number> {
+  const { data } = await decoded(page, await page.screenshot({ clip }));
   let count = 0;
-  for (let n = 0; n < pixels.length; n += 4) if (counts(pixels[n]!, pixels[n + 1]!, pixels[n + 2]!)) ++count;
-  return count / (pixels.length / 4);
-}
-
-async function pixelsOf(page: Page, clip: Clip): Promise<Uint8Array> {
-  const whole = (await page.screenshot({ clip })).toString("base64");
-  const pixels = await page.evaluate(async (png) => {
-    const image = new Image();
-    image.src = `data:image/png;base64,${png}`;
-    await image.decode();
-    const canvas = document.createElement("canvas");
-    canvas.width = image.naturalWidth;
-    canvas.height = image.naturalHeight;
-    const c = canvas.getContext("2d")!;
-    c.drawImage(image, 0, 0);
-    const { data } = c.getImageData(0, 0, canvas.width, canvas.height);
-    let bytes = "";
-    for (let n = 0; n < data.length; n += 8192) bytes += String.fromCharCode(...data.subarray(n, n + 8192));
-    return btoa(bytes);
-  }, whole);
-  return Buffer.from(pixels, "base64");
+  for (let n = 0; n < data.length; n += 4) if (counts(data[n]!, data[n + 1]!, data[n + 2]!)) ++count;
+  return count / (data.length / 4);
 }
 
 /** The stored picture. With TRIBO_STORE_PICTURES, `now` is stored first. */
