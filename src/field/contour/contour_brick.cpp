@@ -23,6 +23,11 @@ constexpr bool is_on_lower_face(int node) {
     return node < kStep[2] || node % kStep[2] < kStep[1] || node % kStep[1] == 0;
 }
 
+Vec3 into(const Box3& box, Vec3 p) {
+    for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], box.min[axis], box.max[axis]);
+    return p;
+}
+
 class BrickContour {
   public:
     BrickContour(const CarvedField& field, BrickCoord coord, const ContourOptions& options)
@@ -45,7 +50,7 @@ class BrickContour {
             for (const Crossing& c : nodes_.list()) mean += c.point;
             const Vec3 lo = nodes_.node_mm(0);
             s.vertices.push_back(
-                to_float(into(lo, kBrickCells, mean / static_cast<double>(nodes_.list().size()))));
+                to_float(into(room(lo, kBrickCells), mean / static_cast<double>(nodes_.list().size()))));
             return s;
         }
         s.cell.assign(kCells, BrickSurface::kNone);
@@ -79,11 +84,10 @@ class BrickContour {
         }
     }
 
-    Vec3 into(Vec3 low, int cells, Vec3 p) const {
-        const double off = margin_ * field_.cell_mm();
-        for (int axis = 0; axis < 3; ++axis)
-            p[axis] = std::clamp(p[axis], low[axis] + off, low[axis] + cells * field_.cell_mm() - off);
-        return p;
+    // The room of the vertices in some cells along each edge, from node `low` on.
+    Box3 room(Vec3 low, int cells) const {
+        const double off = margin_ * field_.cell_mm(), size = cells * field_.cell_mm();
+        return Box3{low, low + Vec3{size, size, size}}.inflated(-off);
     }
 
     bool is_plane() const {
@@ -136,7 +140,7 @@ class BrickContour {
             }
         }
         for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
-            if (back[i]) placed[i] = into(nodes_.node_mm(node), 1, p.middle(static_cast<int>(i)));
+            if (back[i]) placed[i] = into(room(nodes_.node_mm(node), 1), p.middle(static_cast<int>(i)));
         }
     }
 
@@ -225,22 +229,23 @@ class BrickContour {
             quadric.add(pieces.at[id]->point, pieces.at[id]->normal);
         }
         const Vec3 lo = nodes_.node_mm(node);
-        const auto into_cell = [&](Vec3 p) { return into(lo, 1, p); };
+        const Box3 cell = room(lo, 1);
         if (const std::optional<Vec3> end = end_of_wall(pieces, piece, quadric.mean(), lo))
-            return into_cell(*end);
+            return into(cell, *end);
         // Several pieces stay apart if each is in the hull of its own crossings.
-        if (pieces.count > 1 && pieces.simple) return into_cell(quadric.mean());
+        if (pieces.count > 1 && pieces.simple) return into(cell, quadric.mean());
         // Planes through the crossings miss a curved surface by their sagitta. Newton steps remove this
         // error: onto the surface where it is smooth, onto the intersection of its faces where it is not.
         constexpr double kSmooth = 0.1;  // rad
-        if (options_.rough) return into_cell(quadric.is_flat(kSmooth) ? quadric.mean() : quadric.solve());
+        if (options_.rough)
+            return quadric.is_flat(kSmooth) ? into(cell, quadric.mean()) : quadric.solve_in(cell);
         if (quadric.is_flat(kSmooth)) {
-            const Vec3 p = into_cell(quadric.mean());
+            const Vec3 p = into(cell, quadric.mean());
             const CarvedField::Exact e = field_.exact(nodes_.ref(), p);
             const bool near = std::abs(e.distance_mm) < 0.5 * field_.cell_mm();
-            return near ? into_cell(p - e.distance_mm * normal_of_face(field_, e.shape, p)) : p;
+            return near ? into(cell, p - e.distance_mm * normal_of_face(field_, e.shape, p)) : p;
         }
-        Vec3 p = into_cell(quadric.solve());
+        Vec3 p = quadric.solve_in(cell);
         Quadric planes;
         for (const double back : {0.3, 0.03}) {
             planes = {};
@@ -248,16 +253,15 @@ class BrickContour {
                 const FacePoint t = tangent_near(field_, *around[k], p, back);
                 planes.add(t.point, t.normal);
             }
-            p = into_cell(planes.solve());
+            p = planes.solve_in(cell);
         }
-        return onto_surface(planes, p, into_cell);
+        return onto_surface(planes, p, cell);
     }
 
     // The planes miss the surface where a face takes part that crosses no edge of the cell, and at cusps of
     // strongly curved faces. First the face at p becomes one of the planes; what is left is a way along its
     // normal.
-    template <class IntoCell>
-    Vec3 onto_surface(Quadric planes, Vec3 p, const IntoCell& into_cell) const {
+    Vec3 onto_surface(Quadric planes, Vec3 p, const Box3& cell) const {
         constexpr int kPlanes = 4, kSteps = 8;
         const double close_mm = 1e-3 * field_.cell_mm();
         for (int n = 0; n < kSteps; ++n) {
@@ -265,7 +269,7 @@ class BrickContour {
             if (std::abs(e.distance_mm) < close_mm) break;
             const Vec3 out = normal_of_face(field_, e.shape, p), foot = p - e.distance_mm * out;
             if (n < kPlanes) planes.add(foot, out);
-            p = into_cell(n < kPlanes ? planes.solve() : foot);
+            p = n < kPlanes ? planes.solve_in(cell) : into(cell, foot);
         }
         return p;
     }

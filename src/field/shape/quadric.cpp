@@ -58,11 +58,16 @@ bool Quadric::is_flat(double tolerance) const {
     return length(normals_) > count_ * (1 - 0.5 * tolerance * tolerance);
 }
 
-Vec3 Quadric::solve(double cutoff) const {
-    const Vec3 m = mean();
-    const Vec3 rest = right_ - Vec3{xx_ * m.x + xy_ * m.y + xz_ * m.z, xy_ * m.x + yy_ * m.y + yz_ * m.z,
-                                    xz_ * m.x + yz_ * m.y + zz_ * m.z};
+Vec3 Quadric::solve_with(const std::array<bool, 3>& fixed, Vec3 offset, double cutoff) const {
+    const Vec3 m = mean() + offset;
+    Vec3 rest = right_ - Vec3{xx_ * m.x + xy_ * m.y + xz_ * m.z, xy_ * m.x + yy_ * m.y + yz_ * m.z,
+                              xz_ * m.x + yz_ * m.y + zz_ * m.z};
     double a[3][3] = {{xx_, xy_, xz_}, {xy_, yy_, yz_}, {xz_, yz_, zz_}}, v[3][3];
+    for (int i = 0; i < 3; ++i) {
+        if (!fixed[static_cast<std::size_t>(i)]) continue;
+        rest[i] = 0;
+        for (int j = 0; j < 3; ++j) a[i][j] = a[j][i] = 0;
+    }
     diagonalise(a, v);
     const double largest = std::max(a[0][0], std::max(a[1][1], a[2][2]));
     Vec3 x = m;
@@ -72,6 +77,25 @@ Vec3 Quadric::solve(double cutoff) const {
         x += (dot(direction, rest) / a[i][i]) * direction;
     }
     return x;
+}
+
+Vec3 Quadric::solve_in(const Box3& box, double cutoff) const {
+    std::array<bool, 3> fixed{};
+    Vec3 offset;
+    for (int n = 0; n < 3; ++n) {
+        const Vec3 x = solve_with(fixed, offset, cutoff);
+        int worst = -1;
+        double most = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double beyond = std::max(box.min[axis] - x[axis], x[axis] - box.max[axis]);
+            if (!fixed[static_cast<std::size_t>(axis)] && beyond > most) most = beyond, worst = axis;
+        }
+        if (worst < 0) return x;
+        fixed[static_cast<std::size_t>(worst)] = true;
+        const double side = x[worst] < box.min[worst] ? box.min[worst] : box.max[worst];
+        offset[worst] = side - mean()[worst];
+    }
+    return mean() + offset;
 }
 
 }  // namespace tribo::field

@@ -2,6 +2,8 @@
 // The point closest to a set of planes, as dual contouring places its vertices.
 #pragma once
 
+#include <array>
+
 #include "base/vec3.hpp"
 
 namespace tribo::field {
@@ -15,11 +17,16 @@ class Quadric {
     int count() const { return count_; }
     Vec3 mean() const { return count_ > 0 ? sum_ / count_ : Vec3{}; }
     // A direction is undetermined if its share of the spread of the planes is below `cutoff` (0..1).
-    Vec3 solve(double cutoff = 0.02) const;
+    Vec3 solve(double cutoff = 0.02) const { return solve_with({}, {}, cutoff); }
+    // The same in a box: where the point of least distance is outside, a point on the side that it is beyond.
+    Vec3 solve_in(const Box3& box, double cutoff = 0.02) const;
     // True if all normals are within about `tolerance` rad of one direction: the surface is smooth here.
     bool is_flat(double tolerance) const;
 
   private:
+    // Solves for the coordinates that are not fixed; `offset` from the mean is that of the fixed ones.
+    Vec3 solve_with(const std::array<bool, 3>& fixed, Vec3 offset, double cutoff) const;
+
     double xx_ = 0, xy_ = 0, xz_ = 0, yy_ = 0, yz_ = 0, zz_ = 0;  // sum of n n^T
     Vec3 right_;                                                  // sum of (n . p) n
     Vec3 sum_, normals_;
