@@ -8,6 +8,7 @@
 #include "base/text/decimal.hpp"
 #include "base/text/limit_text.hpp"
 #include "field/contour/contour.hpp"
+#include "field/contour/contour_refine.hpp"
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
 #include "files/memory.hpp"
@@ -120,7 +121,9 @@ const session::MillTotals& Mill::totals() const {
 }
 
 TriangleMesh Mill::part() const {
-    return field::contour(state_->session->stock(), state_->parallel);
+    TriangleMesh mesh = field::contour(state_->session->stock(), state_->parallel);
+    field::refine(mesh, state_->session->stock(), field::kFileSagittaMm, state_->parallel);
+    return mesh;
 }
 
 const contact::DistanceField& Mill::surface() const {

@@ -7,6 +7,7 @@
 #include "base/math.hpp"
 #include "contact/contact_sample.hpp"
 #include "field/contour/contour.hpp"
+#include "field/contour/contour_refine.hpp"
 #include "golden/golden.hpp"
 #include "milling/tool/cutter_shape.hpp"
 #include "motion/curve/keyframe_motion.hpp"
@@ -72,7 +73,8 @@ std::uint64_t milled(const job::Job& job, motion::Program program) {
                                t.chip_mm3, t.mean_force_n, t.peak_force_n, t.peak_power_w})
         hash.add(value);
     hash.add(t.rows);
-    const TriangleMesh mesh = field::contour(session.stock());
+    TriangleMesh mesh = field::contour(session.stock());
+    field::refine(mesh, session.stock(), field::kFileSagittaMm);
     for (const Point3f& p : mesh.positions) hash.add(p);
     hash.add(mesh.triangles.size());
     return t.rows > 10 ? hash.value() : 0;

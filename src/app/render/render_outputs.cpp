@@ -11,6 +11,7 @@
 #include "app/render/report_sheet.hpp"
 #include "base/text/decimal.hpp"
 #include "field/contour/contour.hpp"
+#include "field/contour/contour_refine.hpp"
 #include "files/model/gltf.hpp"
 #include "job/listening.hpp"
 #include "readers/mesh/stl.hpp"
@@ -144,6 +145,7 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session,
     std::vector<std::uint8_t> on_blank;
     if (call_.wants("mesh") || call_.wants("report")) {
         mesh = field::contour(session.stock(), parallel_);
+        field::refine(mesh, session.stock(), field::kFileSagittaMm, parallel_);
         on_blank = session::vertices_on_blank(mesh, session.stock().blank(), parallel_);
         summary.triangles = mesh.triangles.size();
     }
