@@ -82,7 +82,30 @@ TEST(FanucWords, of_okuma_tap_with_the_spindle_in_step) {
     }
 }
 
+// Pecks of 2 mm from R2 to Z-9: the tool leaves the hole at 6 mm, and breaks its chips elsewhere.
+TEST(FanucWords, of_okuma_clear_a_deep_hole_by_its_depth) {
+    const motion::Program program =
+        read(kOkuma + "G83 X0 Y0 Z-9 R2 I2 J6 F50 M54 (JIG)\nG83 X5 Z-3 R2 I2\nG80\n", OtherControl::okuma);
+    std::vector<double> tops;
+    for (const motion::Move& move : program.moves) {
+        if (move.kind == motion::MoveKind::rapid && move.end.tip_mm.z > move.start.tip_mm.z)
+            tops.push_back(move.end.tip_mm.z);
+    }
+    constexpr double kLift = 0.254;
+    const std::vector<double> expected{0 + kLift, -2 + kLift, 2, -6 + kLift, -8 + kLift, 2, 2, 2, 2};
+    ASSERT_EQ(tops.size(), expected.size());
+    for (std::size_t i = 0; i < tops.size(); ++i) EXPECT_NEAR(tops[i], expected[i], 1e-12) << i;
+}
+
+TEST(FanucWords, of_okuma_go_to_places_of_the_machine) {
+    const motion::Program program =
+        read(kOkuma + "G1 X4\nG16 H0 Z1000\nG16 H0 X0 Y0 (HOME)\nG0 X7 Y0 Z5\nG1 X9\n", OtherControl::okuma);
+    EXPECT_NEAR(feed_mm(program), 4 + 2, 1e-12);
+    EXPECT_TRUE(warns_of(program, 9, "only the machine knows"));
+}
+
 TEST(FanucWords, of_okuma_that_have_none_are_refused) {
+    EXPECT_NE(fault(kOkuma + "G16 H2 X0\n", OtherControl::okuma).find("G16 of Okuma"), std::string::npos);
     EXPECT_NE(fault(kOkuma + "CALL OO88 PX=4 PH=1 PP=2\n", OtherControl::okuma).find("'CALL'"),
               std::string::npos);
     EXPECT_NE(fault(kOkuma + "CALL OO88 HP=4\n", OtherControl::okuma).find("'CALL'"), std::string::npos);

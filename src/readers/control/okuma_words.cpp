@@ -4,6 +4,7 @@
 #include <array>
 
 #include "readers/control/word_translator.hpp"
+#include "readers/gcode/text/fanuc_variables.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -176,9 +177,36 @@ void WordTranslator::work_system() {
     }
 }
 
+// G16 H: a work system of this block alone; 0 is that of the machine.
+void WordTranslator::system_of_block() {
+    const std::string zero = take_word('H');
+    out_ += all_digits(zero) && zero.find_first_not_of('0') == std::string::npos ? "G53" : "GOKUMA16";
+}
+
+// I: the depth of a peck. J: the depth after which the tool clears the hole; between, it breaks the chips.
+void WordTranslator::pecks(const std::string& code) {
+    const std::string depth = take_value('I'), clearing = take_value('J');
+    if (clears_ || !clearing.empty())
+        out_ += "#" + std::to_string(gcode::kClearingDepth) + "=" + (clearing.empty() ? "0" : clearing) + " ";
+    clears_ = !clearing.empty();
+    out_ += "G" + code + (depth.empty() ? "" : "Q" + depth);
+}
+
+// M54: cycles return to R. M52, M53: to the top, to the level of G71; where the tool stood is taken for both.
+bool WordTranslator::return_level() {
+    if (in_[at_] != 'M') return false;
+    const std::string_view number = digits_at(in_, at_ + 1);
+    if (number != "52" && number != "53" && number != "54") return false;
+    out_ += number == "54" ? "G99" : "G98";
+    at_ += 1 + number.size();
+    return true;
+}
+
 void WordTranslator::okuma_code(const std::string& number) {
-    if (number == "15" || number == "16") {
+    if (number == "15") {
         work_system();
+    } else if (number == "16") {
+        system_of_block();
     } else if (number == "605") {  // the zero of system H goes with the part
         take_word('Q');
         take_word('R');
@@ -209,6 +237,7 @@ void WordTranslator::okuma_code(const std::string& number) {
     } else {
         const bool is_cycle = number.size() == 2 && (number[0] == '7' || number[0] == '8');
         if (is_cycle) cycle_on_ = number != "80";
+        if (number == "73" || number == "83") return pecks(number);
         out_ += "G" + number;
     }
 }

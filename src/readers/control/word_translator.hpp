@@ -146,7 +146,7 @@ class WordTranslator {
         } else if (!is_letter(c)) {
             out_ += c;
             ++at_;
-        } else if (is_okuma_ && okuma_statement()) {
+        } else if (is_okuma_ && (okuma_statement() || return_level())) {
             return;
         } else if (c == 'G' && at_ + 1 < in_.size() && is_digit(in_[at_ + 1])) {
             code();
@@ -217,9 +217,16 @@ class WordTranslator {
         }
     }
 
+    // Where the rest of the block has a word of that letter; none in a comment of Okuma.
+    std::size_t find_word(char letter) const {
+        const std::size_t end = is_okuma_ ? in_.find_first_of("(;", at_) : in_.size();
+        const std::size_t found = in_.find(letter, at_);
+        return found < end ? found : std::string::npos;
+    }
+
     // The word of that letter in the rest of the block, taken out of it; empty: it has none.
     std::string take_word(char letter) {
-        const std::size_t found = in_.find(letter, at_);
+        const std::size_t found = find_word(letter);
         if (found == std::string::npos) return {};
         std::size_t end = found + 1;
         while (end < in_.size() && (is_name(in_[end]) || in_[end] == '.' || in_[end] == '-')) {
@@ -233,7 +240,7 @@ class WordTranslator {
 
     // The same as a formula; empty: the block has no such word.
     std::string take_value(char letter) {
-        const std::size_t found = in_.find(letter, at_);
+        const std::size_t found = find_word(letter);
         if (from(in_, found).substr(0, 2).ends_with('=')) {
             const std::size_t start = std::exchange(at_, found + 2);
             const std::string value = formula(" ");
@@ -258,6 +265,9 @@ class WordTranslator {
     std::string program_of(const std::string& name) const;
     bool fixture_offset();
     void work_system();
+    void system_of_block();
+    void pecks(const std::string& code);
+    bool return_level();
     void okuma_code(const std::string& number);
 
     // fagor_words.cpp
@@ -274,6 +284,7 @@ class WordTranslator {
     bool is_okuma_, says_centres_;
     bool has_centre_ = false, has_absolute_centre_ = false;  // of the block
     bool cycle_on_ = false, is_turned_ = false;
+    bool clears_ = false;                           // the last deep hole had J
     bool is_arc_ = false, is_other_plane_ = false;  // of the last G0 to G3, and of G17 to G19
     std::string in_, out_;
     std::size_t at_ = 0;

@@ -190,6 +190,7 @@ struct State {
     MotionMode plain_motion = MotionMode::none;  // the last of G0 to G3; it goes on after G80
     ProgramFrame frame;
     Cycle cycle;
+    double clearing_depth_mm = 0;  // of kClearingDepth (text/fanuc_variables.hpp)
     Nurbs nurbs;
     Compensation compensation;
     // Position of the tool at the end of compensation; the next move starts here and not at tip_mm.

@@ -19,6 +19,7 @@ using motion::MoveKind;
 constexpr double kChipBreakMm = 0.254;
 constexpr double kMostRepeats = 100'000;
 constexpr double kMostPecks = 100'000;
+constexpr double kRounding = 1e-9;  // of sums of pecks, mm
 
 class Run {
   public:
@@ -316,16 +317,23 @@ class Run {
         return dwell(seconds, command_, state_, output_);
     }
 
+    // The tool leaves the hole when it has drilled this deep since it was last out of it.
+    bool clears(double drilled_mm) const {
+        const double depth = state_.clearing_depth_mm;
+        return depth > 0 ? drilled_mm > depth - kRounding : state_.cycle.tenths == 830;
+    }
+
     // Moves from the retract level to the bottom, and back as far as the cycle returns at feed.
     Result<void> bottom_and_back() {
         if (pecks()) {
-            double ground = retract_;
+            double ground = retract_, cleared = retract_;
             for (int i = 0;; ++i) {
                 // Equal pecks count from the level R on, so that their errors do not add up.
                 ground = state_.cycle.first_peck_mm ? ground - peck_mm(i) : retract_ - (i + 1) * peck_mm(i);
                 if (!(ground > depth_)) break;
                 if (auto moved = go(MoveKind::feed, ground); !moved) return moved;
-                if (state_.cycle.tenths == 830) {
+                if (clears(cleared - ground)) {
+                    cleared = ground;
                     if (auto moved = go(MoveKind::rapid, retract_); !moved) return moved;
                 }
                 const double above = std::min(ground + kChipBreakMm, retract_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/text/fanuc_variables.hpp"
 
+#include <cmath>
+
 #include "base/text/limit_text.hpp"
 #include "readers/gcode/state.hpp"
 
@@ -85,6 +87,10 @@ std::optional<double> fanuc_system_variable(int number, const State& state) {
 }
 
 Result<bool> set_fanuc_system_variable(int number, double value, State& state) {
+    if (number == kClearingDepth) {
+        state.clearing_depth_mm = std::abs(value) * state.unit_mm;
+        return true;
+    }
     const auto place = work_place(number);
     if (!place) return false;
     const double origin_mm = value * state.unit_mm;

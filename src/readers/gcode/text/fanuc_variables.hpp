@@ -18,6 +18,8 @@ inline constexpr int kFirstBlockEnd = 5001, kFirstPlace = 5041;
 // Direction of the last move at its end, X Y Z. No control has these: programs of others are written with
 // them (control/fanuc_words.hpp).
 inline constexpr int kFirstHeading = 99'901;
+// The depth after which G73 and G83 clear the hole; 0: G83 after each peck, G73 never.
+inline constexpr int kClearingDepth = 99'904;
 inline constexpr int kAlarm = 3000, kStopWithMessage = 3006;
 
 // Returns the value; none where only the control knows it. Lengths are in the unit in force.

@@ -16,10 +16,12 @@ bool is_tape_character(char c) {
     return (c >= 0x11 && c <= 0x14) || c == 0x1A || c == 0x7F;
 }
 
-// The code of another control for which Fanuc has none (control/fanuc_words.hpp): FAGORG87, GNUM45; else
-// empty.
+// The code of another control for which Fanuc has none (control/fanuc_words.hpp): FAGORG87, GOKUMA16,
+// GNUM45; else empty.
 std::string code_of_another(std::string_view name) {
     if (name.starts_with("FAGORG")) return std::string(name.substr(5)) + " of Fagor controls";
+    if (name.starts_with("GOKUMA") && name.size() > 6)
+        return "G" + std::string(name.substr(6)) + " of Okuma controls";
     if (!name.starts_with("GNUM") || name.size() == 4) return {};
     const std::string_view code = name.substr(4);
     return (is_digit(code[0]) ? "G" : "") + std::string(code) + " of NUM controls";
