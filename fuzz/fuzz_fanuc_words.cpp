@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace tribo;
     constexpr std::size_t largest = 1 << 16;
     if (size == 0 || size > largest) return 0;
-    const auto control = static_cast<readers::OtherControl>(data[0] % 3);
+    const auto control = static_cast<readers::OtherControl>(data[0] % readers::kOtherControls);
     const std::string_view text{reinterpret_cast<const char*>(data) + 1, size - 1};
     const std::string words = readers::in_fanuc_words(text, control);
     readers::TextLines lines(text);

@@ -297,13 +297,54 @@ TEST(FanucWords, of_num_that_have_none_are_refused) {
     }
 }
 
+// What begins the programs below: the work system by E, the length by H and Z.
+const std::string kFadalStart = "M6 T1\nG0 G90 S900 M3 X0 Y0 E1\nH1 Z5.\nG8\n";
+const std::string kFadalInFanuc = "G21 M6 T1\nG0 G90 S900 M3 G54.1 P1 X0 Y0\nG43 H1 Z5\n";
+
+TEST(FanucWords, of_fadal_have_systems_lengths_and_taps) {
+    const std::string start = "O5 (PLATE)\n" + kFadalStart;
+    expect_same(start +
+                    "G1 Z-1 F60\nX10\n* A COMMENT\nN8 G0 Z5\nG84.2\nG84.1 G99 X20 R0+3. Z-6 F100\nG80\n"
+                    "G0 G90 H0 Z0.\nE0 X0. Y250.\nX9\nM2\n",
+                OtherControl::fadal,
+                kFadalInFanuc + "G1 Z-1 F60\nX10\nG0 Z5\nG99 G84 X20 R3 Z-6 F100\nG80\nM2\n");
+    EXPECT_TRUE(warns_of(read(start + "G1 X5 F60\nG90 H0 Z0\nX7\n", OtherControl::fadal), 7,
+                         "only the machine knows"));
+}
+
+TEST(FanucWords, of_fadal_have_subroutines_before_the_main_program) {
+    // Two holes, then a ring of four turns to Z-2 and of two more there.
+    const motion::Program program =
+        read("%\nO5\nL100\nX4 Y0\nX8.\nM17\nL200 (RING)\nG91 G3 I-2 Z-0.5 L4\nG3 I-2. L2\nG90\nM17\nM30\n" +
+                 kFadalStart + "G99 G81 R2 Z-3 F60 L0\nL101\nG80\nG1 Z0\nL201\nM2\n",
+             OtherControl::fadal);
+    GcodeOptions options;
+    options.dialect = GcodeDialect::fanuc;
+    expect_one_path(
+        program,
+        read_gcode(kFadalInFanuc + "G99 G81 R2 Z-3 F60 X4\nX8\nG80\nG1 Z0\nG3 I-2 Z-2 P4\nG3 I-2 P2\nM2\n",
+                   options),
+        "Fadal");
+    EXPECT_EQ(program.moves.back().line, 9);
+}
+
+TEST(FanucWords, of_fadal_that_have_none_are_refused) {
+    for (const char* text : {"G91 G1 X5 L3\n", "G3 I-2 Z-1 L3\n", "L5\n", "G91 G3 X1 I2 L3\n"}) {
+        EXPECT_NE(fault(kFadalStart + text, OtherControl::fadal).find("L of Fadal"), std::string::npos)
+            << text;
+    }
+    EXPECT_NE(fault(kFadalStart + "X1 E60\n", OtherControl::fadal).find("E of Fadal"), std::string::npos);
+    EXPECT_NE(fault(kFadalStart + "X1.2.3\n", OtherControl::fadal), "");
+}
+
 TEST(FanucWords, keep_the_lines_and_leave_other_programs_alone) {
-    for (const char* text :
-         {"O0001\nG0 X0\n", "G21\n#1=5\nG1 X#1\n", "N10 (P 5)\nG1 X0\n", "X=5\nR1=3\n", ""}) {
+    for (const char* text : {"O0001\nG0 X0\n", "G21\n#1=5\nG1 X#1\n", "N10 (P 5)\nG1 X0\n", "X=5\nR1=3\n",
+                             "G43 H1 Z5\nX0 Y0 E1\n", "G1 X5 Y5 E1\nG1 Z2\n", ""}) {
         EXPECT_FALSE(detect_other_control(text).has_value()) << text;
     }
     const std::string ugly = "VC1=\n((((\nN\nX=\nIF [\nCALL\n(IF\n(P1=\nG\n\xff\xfe\nVC99999999=1\n";
-    for (const OtherControl control : {OtherControl::okuma, OtherControl::fagor, OtherControl::num}) {
+    for (const OtherControl control :
+         {OtherControl::okuma, OtherControl::fagor, OtherControl::num, OtherControl::fadal}) {
         const std::string translated = in_fanuc_words(ugly, control);
         EXPECT_EQ(std::count(translated.begin(), translated.end(), '\n'), 11);
     }

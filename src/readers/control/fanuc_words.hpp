@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Programs of Okuma OSP, Fagor 8055 and NUM controls in the words of a Fanuc control, line by line. What has
-// no such word is left as it is, or made a word that the reader of G-code refuses by name.
+// Programs of Okuma OSP, Fagor 8055, NUM and Fadal controls in the words of a Fanuc control, line by line.
+// What has no such word is left as it is, or made a word that the reader of G-code refuses by name.
 #pragma once
 
 #include <string>

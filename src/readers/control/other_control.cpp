@@ -5,6 +5,7 @@
 #include <array>
 #include <string>
 
+#include "readers/control/fadal_words.hpp"
 #include "readers/control/num_words.hpp"
 #include "readers/text/text_lines.hpp"
 
@@ -20,7 +21,7 @@ bool starts_with_digit(std::string_view text) {
 }  // namespace
 
 std::string_view name_of(OtherControl control) {
-    constexpr std::array<std::string_view, 3> names{"Okuma OSP", "Fagor 8055", "NUM"};
+    constexpr std::array<std::string_view, kOtherControls> names{"Okuma OSP", "Fagor 8055", "NUM", "Fadal"};
     return names[static_cast<std::size_t>(control)];
 }
 
@@ -56,6 +57,7 @@ std::optional<OtherControl> detect_other_control(std::string_view bytes) {
             return OtherControl::okuma;
         if (is_block_of_num(text.substr(0, text.find('(')))) return OtherControl::num;
     }
+    if (looks_like_fadal(bytes.substr(0, kLookedAt))) return OtherControl::fadal;
     return std::nullopt;
 }
 

@@ -22,6 +22,8 @@ std::string code_of_another(std::string_view name) {
     if (name.starts_with("FAGORG")) return std::string(name.substr(5)) + " of Fagor controls";
     if (name.starts_with("GOKUMA") && name.size() > 6)
         return "G" + std::string(name.substr(6)) + " of Okuma controls";
+    if (name.starts_with("GFADAL") && name.size() > 6)
+        return std::string(name.substr(6)) + " of Fadal controls";
     if (!name.starts_with("GNUM") || name.size() == 4) return {};
     const std::string_view code = name.substr(4);
     return (is_digit(code[0]) ? "G" : "") + std::string(code) + " of NUM controls";
@@ -127,7 +129,14 @@ Result<bool> Lexer::next(Block& block) {
             block.column = static_cast<int>(cursor_.at) + 1;
             return true;
         }
-        if (c == '/' && !is_first && skip_deletable_) {
+        if (c == '/' && is_first) {  // behind the line's number
+            block.deletable = true;
+            if (skip_deletable_) return true;
+            ++cursor_.at;
+            if (is_digit(cursor_.peek())) ++cursor_.at;
+            continue;
+        }
+        if (c == '/' && skip_deletable_) {
             block.has_deleted_rest = true;
             block.comments.push_back(cursor_.line);  // T1//15.98 names a tool and its diameter (EZ-CAM)
             return true;
