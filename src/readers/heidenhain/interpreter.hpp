@@ -134,6 +134,7 @@ class Interpreter {
     Result<Words> read_words(LineReader& in, std::string_view own, FreeWords* free = nullptr);
     Result<void> sort_word(LineReader& in, const Item& item, std::string_view own, Words& words);
     Result<void> apply_feed(const Words& words);
+    Result<double> feed_of(const Item& item);
     Result<void> miscellaneous(const Words& words);
     Result<void> retract(const Words& words);
 

@@ -143,6 +143,7 @@ Result<void> Interpreter::call_tool(LineReader& in) {
     std::vector<Item> items;
     if (auto done = close_contour(); !done) return done;
     if (auto done = all_items(in, items); !done) return done;
+    const Item* feed_per = nullptr;  // FU or FZ, which need the speed
     for (std::size_t i = 0; i < items.size(); ++i) {
         const Item& item = items[i];
         const bool names_tool = i == 0 && (item.name.empty() || item.name.starts_with('"'));
@@ -175,6 +176,8 @@ Result<void> Interpreter::call_tool(LineReader& in) {
                 if (auto good = in.in_range(kLimits.feed, tool_feed_, item.column); !good) return good;
             }
             if (tool_feed_ > 0) path_.feed_mm_per_min = tool_feed_;
+        } else if ((item.name == "FU" || item.name == "FZ") && item.value) {
+            feed_per = &item;
         } else if (item.name == "DR" || item.name == "DL") {
             // DR2+0.1 is the corner's: a word, a number, and a number.
             const bool of_corner = item.name == "DR" && i + 1 < items.size() && items[i + 1].name.empty();
@@ -198,6 +201,11 @@ Result<void> Interpreter::call_tool(LineReader& in) {
             return in.refuse(item.column, "'" + item.name + "' does not belong into TOOL CALL",
                              "write Z, S and F");
         }
+    }
+    if (feed_per != nullptr) {
+        const auto feed = feed_of(*feed_per);
+        if (!feed) return std::unexpected(feed.error());
+        path_.feed_mm_per_min = tool_feed_ = *feed;
     }
     return {};
 }

@@ -152,30 +152,37 @@ Result<void> Interpreter::apply_feed(const Words& words) {
             }
             path_.feed_mm_per_min = tool_feed_;
         } else if ((item.name == "F" || item.name == "FU" || item.name == "FZ") && item.value) {
-            double feed = *item.value * unit_mm_;
-            const bool per_tooth = item.name == "FZ";
-            if (per_tooth || item.name == "FU" || feed_per_turn_) {
-                const int teeth = per_tooth ? path_.flutes() : 1;
-                if (!(path_.spindle_rpm > 0) || teeth == 0) {
-                    if (path_.options.default_feed_mm_per_min > 0) {
-                        path_.feed_mm_per_min = path_.options.default_feed_mm_per_min;
-                        path_.warn(line_.number,
-                                   "a feed per turn or per tooth without a speed or without the "
-                                   "number of teeth: the job's feed is taken");
-                        continue;
-                    }
-                    return path_.refuse(place(item.column),
-                                        per_tooth ? "FZ without a speed, or without the number of teeth"
-                                                  : "a feed per turn without a speed",
-                                        "write S in TOOL CALL and F in mm/min");
-                }
-                feed *= path_.spindle_rpm * teeth;
-            }
-            if (auto good = path_.in_range(kLimits.feed, feed, place(item.column)); !good) return good;
-            path_.feed_mm_per_min = feed;
+            const auto feed = feed_of(item);
+            if (!feed) return std::unexpected(feed.error());
+            path_.feed_mm_per_min = *feed;
         }
     }
     return {};
+}
+
+// The feed of F, FU (per turn) or FZ (per tooth), mm/min.
+Result<double> Interpreter::feed_of(const Item& item) {
+    double feed = *item.value * unit_mm_;
+    const bool per_tooth = item.name == "FZ";
+    if (per_tooth || item.name == "FU" || feed_per_turn_) {
+        const int teeth = per_tooth ? path_.flutes() : 1;
+        if (!(path_.spindle_rpm > 0) || teeth == 0) {
+            if (path_.options.default_feed_mm_per_min > 0) {
+                path_.warn(line_.number,
+                           "a feed per turn or per tooth without a speed or without the "
+                           "number of teeth: the job's feed is taken");
+                return path_.options.default_feed_mm_per_min;
+            }
+            return path_.refuse(place(item.column),
+                                per_tooth ? "FZ without a speed, or without the number of teeth"
+                                          : "a feed per turn without a speed",
+                                "write S in TOOL CALL and F in mm/min");
+        }
+        feed *= path_.spindle_rpm * teeth;
+    }
+    if (auto good = path_.in_range(kLimits.feed, feed, place(item.column)); !good)
+        return std::unexpected(good.error());
+    return feed;
 }
 
 // Runs the miscellaneous functions of the block that act at its end, after the path function.

@@ -108,6 +108,12 @@ TEST(HeidenhainLanguage, CountsFeedsPerTurn) {
     EXPECT_NEAR(program.moves[0].feed_mm_per_min, 200, 1e-9);
     EXPECT_NEAR(program.moves[3].feed_mm_per_min, 400, 1e-9);
     EXPECT_NEAR(program.moves[5].feed_mm_per_min, 300, 1e-9);
+    // In TOOL CALL the speed may stand behind the feed.
+    const motion::Program called =
+        conversational(after_start("TOOL CALL 1 Z FU0.1 S900\nL X+5 M3\nL X+9 F50\nL X+12 FAUTO\n"));
+    ASSERT_EQ(called.moves.size(), 3U);
+    EXPECT_NEAR(called.moves[0].feed_mm_per_min, 90, 1e-9);
+    EXPECT_NEAR(called.moves[2].feed_mm_per_min, 90, 1e-9);
 }
 
 TEST(HeidenhainLanguage, RetractsAlongTheTool) {
