@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -40,6 +41,14 @@ bool is_quadrant_mode(Code one, Code other) {
     return (one.tenths == kQuadrantMode && plain(other)) || (other.tenths == kQuadrantMode && plain(one));
 }
 
+// Groups of which each code does nothing but set a mode.
+bool may_be_overruled(GGroup group) {
+    constexpr GGroup groups[] = {GGroup::motion,       GGroup::plane,      GGroup::distance,
+                                 GGroup::feed_mode,    GGroup::units,      GGroup::cutter_side,
+                                 GGroup::return_level, GGroup::work_offset};
+    return std::ranges::find(groups, group) != std::end(groups);
+}
+
 std::unexpected<Error> refuse_pair(int line, const Word& word, int earlier, int later) {
     return refuse(line, word,
                   code_text(word.letter, later) + " contradicts " + code_text(word.letter, earlier) +
@@ -71,7 +80,10 @@ Result<void> Command::add_g(const Word& word) {
         return {};
     }
     if (place && place->tenths != *tenths && *group != GGroup::idle) {
-        return refuse_pair(line_, word, place->tenths, *tenths);
+        if (!last_holds_ || !may_be_overruled(*group))
+            return refuse_pair(line_, word, place->tenths, *tenths);
+        overruled_ = *place;
+        overruling_ = code;
     }
     place = code;
     return {};
@@ -103,10 +115,6 @@ Result<void> Command::settle() {
         return fail_at({}, line_, g(GGroup::idle)->column,
                        "G47 with D (a move longer by two offsets) is not read yet",
                        "let the CAM system write it as a plain G0 to G3 move");
-    }
-    if (has_g(GGroup::idle, 80) && !has('P')) {
-        return fail_at({}, line_, g(GGroup::idle)->column, "G8 (lathe diameters) is not read yet",
-                       "give a milling program");
     }
     if (has_g(GGroup::idle, 1500) && has_any("PIJKQ")) {
         g_[static_cast<std::size_t>(GGroup::pocket)] =
@@ -141,8 +149,9 @@ Result<void> Command::add_m(const Word& word) {
     return {};
 }
 
-Result<Command> Command::of(const Block& block) {
+Result<Command> Command::of(const Block& block, bool last_holds) {
     Command command;
+    command.last_holds_ = last_holds;
     command.line_ = block.line;
     command.block_ = &block;
     for (const Word& word : block.words) {

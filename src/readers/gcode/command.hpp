@@ -24,9 +24,10 @@ struct Code {
 // Holds pointers into its block, which must outlive it.
 class Command {
   public:
-    // Refuses G codes that are not read, two codes of one group, and a repeated letter. The error has line
-    // and column but no file.
-    static Result<Command> of(const Block& block);
+    // Refuses G codes that are not read, two codes of one group, and a repeated letter. With `last_holds` the
+    // last of two modes holds, as on Fanuc controls (B-63944, section 3). The error has line and column but
+    // no file.
+    static Result<Command> of(const Block& block, bool last_holds);
 
     int line() const { return line_; }
     const Block& block() const { return *block_; }
@@ -36,6 +37,10 @@ class Command {
     bool has_any_m() const;
     // M codes without a group, in order: the machine has them, the path does not.
     const std::vector<Code>& unknown_m() const { return unknown_m_; }
+
+    // A mode that a later code of its block has replaced, and that code.
+    std::optional<Code> overruled() const { return overruled_; }
+    Code overruling() const { return overruling_; }
 
     // G41 or G42 beside G150, in tenths: the side of its contour.
     std::optional<int> side_of_pocket() const { return pocket_side_; }
@@ -77,6 +82,9 @@ class Command {
     std::array<std::optional<Code>, static_cast<std::size_t>(GGroup::count)> g_;
     std::array<std::optional<Code>, static_cast<std::size_t>(MGroup::count)> m_;
     std::vector<Code> unknown_m_;
+    bool last_holds_ = false;
+    std::optional<Code> overruled_;
+    Code overruling_;
 };
 
 // For 901: "G90.1".

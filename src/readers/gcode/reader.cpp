@@ -145,10 +145,16 @@ class ProgramReader {
             return true;
         }
 
-        auto command = Command::of(block);
+        auto command = Command::of(block, parameters_.is_fanuc());
         if (!command) {
             command.error().file = output_.options.source_name;
             return std::unexpected(std::move(command.error()));
+        }
+        if (const auto first = command->overruled();
+            first && output_.first(Note::overruled_code, first->tenths)) {
+            output_.warn(block.line, code_text('G', first->tenths) + " and " +
+                                         code_text('G', command->overruling().tenths) +
+                                         " stand in one block: the last one holds, as on Fanuc controls");
         }
         return execute(*command);
     }

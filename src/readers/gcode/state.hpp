@@ -317,6 +317,8 @@ enum class Note {
     program_of_machine,
     plane_centre,
     parallel_axis,
+    overruled_code,
+    tool_timer,
 };
 
 // Receives the moves, warnings and errors of the blocks.

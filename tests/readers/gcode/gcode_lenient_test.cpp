@@ -39,6 +39,10 @@ TEST(GcodeReader, TakesTheWordsOfOneControlAsTheyAreMeantThere) {
         {ready + "G10 L50\nN1815 P1 R5\nN3410 R0.05\nG11\nG1 X10\n", 3, "values of the control", 10},
         {ready + "G101 X0\nG1 X10\nG100 X0\nX10\n", 0, "", 10 + 20},
         {ready + "G101 Y0\nG1 X10\nG100\nX20\n", 0, "", 20},
+        // two modes in a block: the last one holds
+        {ready + "G90 G91 G1 X10\nX10\n", 3, "G90 and G91 stand in one block: the last one holds", 20},
+        {ready + "G0 G1 X10\nG17 G41 G40 X20\n", 4, "G41 and G40", 20},
+        {ready + "IF [#5405 GE 6000] THEN #3000=1\nG1 X10\n", 3, "as of a new tool", 10},
     };
     expect_passed(fanuc, GcodeDialect::fanuc);
     const Passed linuxcnc[] = {
@@ -73,6 +77,7 @@ TEST(GcodeReader, PassesOverWhatLeavesThePathAsItIs) {
         {ready + "G9 G1 X10\n", 0, "", 10},
         {ready + "G5 P10000\nG1 X10\nG5.1 Q1\nX20\n", 0, "", 20},
         {ready + "G8 P1\nG1 X10\n", 0, "", 10},
+        {ready + "G8\nG1 X10\n", 0, "", 10},  // X is a radius (LinuxCNC), and stays so on a mill
         {ready + "G187 P3 E0.01\nG1 X10\n", 0, "", 10},
         {ready + "G28.1 X50\nG1 X10\n", 3, "moves nothing", 10},
         {ready + "G61 G1 X10\nG62 X20\nG64 P0.1\n", 0, "", 20},
@@ -87,6 +92,7 @@ TEST(GcodeReader, PassesOverWhatLeavesThePathAsItIs) {
         {ready + "(a (b) c)\nG1 X10\n", 3, "inside another one", 10},
         {ready + "(a (b)\nG1 X10\n", 3, "inside another one", 10},
         {ready + "G1 X10 (open\n", 3, "not closed", 10},
+        {ready + "N5 /G1 X10\n", 3, "blocks that start with '/' are skipped", 0},
         {ready + "G1 X10 / Y20\n", 3, "what follows '/' in a block is skipped", 10},
         {ready + ": G1 X10\n:20 X20\nN30 X30\n", 0, "", 30},
         {":0100 (PART)\n" + ready + "G1 X10\n", 0, "", 10},

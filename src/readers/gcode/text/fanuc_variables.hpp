@@ -22,6 +22,13 @@ inline constexpr int kFirstHeading = 99'901;
 inline constexpr int kClearingDepth = 99'904;
 inline constexpr int kAlarm = 3000, kStopWithMessage = 3006;
 
+// How long a tool has cut and turned (Haas: #5401 to #5600), but for the numbers in which a Fanuc control has
+// the place of a skip.
+constexpr bool is_tool_timer(int number) {
+    const bool is_skip = number > 5420 && number <= 5440;
+    return number > 5400 && number <= 5600 && !is_skip;
+}
+
 // Returns the value; none where only the control knows it. Lengths are in the unit in force.
 std::optional<double> fanuc_system_variable(int number, const State& state);
 

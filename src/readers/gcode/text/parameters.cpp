@@ -167,6 +167,15 @@ Result<double> Parameters::get_fanuc(int number) const {
             if (number >= first && number < first + 3) return position(number - first);
         }
         if (const auto value = fanuc_system_variable(number, state_)) return *value;
+        if (is_tool_timer(number)) {
+            if (output_.first(Note::tool_timer)) {
+                output_.warn(state_.line,
+                             shown(number) +
+                                 " is the time that a tool has worked (Haas): 0 is taken, as of a "
+                                 "new tool");
+            }
+            return 0.0;
+        }
         return fail(shown(number) + " shows a state of the control that nobody knows here",
                     "assign it before it is read, or let the control expand the macro");
     }
