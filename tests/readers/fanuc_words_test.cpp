@@ -308,6 +308,7 @@ TEST(FanucWords, of_fadal_have_systems_lengths_and_taps) {
                     "G0 G90 H0 Z0.\nE0 X0. Y250.\nX9\nM2\n",
                 OtherControl::fadal,
                 kFadalInFanuc + "G1 Z-1 F60\nX10\nG0 Z5\nG99 G84 X20 R3 Z-6 F100\nG80\nM2\n");
+    EXPECT_EQ(detect_other_control("E1\nG0 X0 Y0\nH1 Z5\n"), OtherControl::fadal);
     EXPECT_TRUE(warns_of(read(start + "G1 X5 F60\nG90 H0 Z0\nX7\n", OtherControl::fadal), 7,
                          "only the machine knows"));
 }

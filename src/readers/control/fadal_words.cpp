@@ -208,7 +208,8 @@ bool looks_like_fadal(std::string_view bytes) {
         if (block.has('G', "43")) return false;
         has_length = has_length || (block.value('H') != nullptr && block.value('Z') != nullptr);
         const std::string* system = block.value('E');
-        has_system = has_system || (system != nullptr && is_system(*system) && block.has_any("XY"));
+        const bool may_name_system = block.has_any("XYH") || block.words.size() == 1;
+        has_system = has_system || (system != nullptr && is_system(*system) && may_name_system);
     }
     return has_length && has_system;
 }

@@ -13,7 +13,8 @@
 
 namespace tribo::readers {
 
-// True for a program that names its work systems by E and its lengths by H without G43.
+// True for a program that names its work systems by E, alone or beside X, Y or H, and its lengths by H and Z
+// without G43.
 bool looks_like_fadal(std::string_view bytes);
 
 // A whole program; has as many lines as it.

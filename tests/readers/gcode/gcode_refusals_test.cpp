@@ -322,6 +322,7 @@ TEST(GcodeReader, RefusesMacroStatementsThatItCannotRun) {
         {"G0 X1\nEND2\n", 2, 1, "END2 without its DO"},
         {"WHILE [1 EQ 1] DO128\nEND128\n", 1, 1, "not one from 1 to 127"},
         {"GOTO 10 G0 X1\n", 1, 9, "nothing but a comment"},
+        {"IF [1 EQ 2] GOTO 10 (A) #5=3\n", 1, 25, "nothing but a comment"},
         {"G0 X#5021\n", 1, 5, "a state of the control that nobody knows"},
         {"G0 X#5430\n", 1, 5, "a state of the control that nobody knows"},
         {"G43 G49 H1\n", 1, 5, "G49 contradicts G43"},

@@ -202,6 +202,7 @@ Result<bool> Lexer::read_macro(Block& block) {
         default:
             block.kind = BlockKind::macro;
             block.macro = *statement;
+            if (auto end = read_end(block); !end) return std::unexpected(end.error());
             return true;
     }
 }

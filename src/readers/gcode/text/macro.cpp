@@ -52,10 +52,6 @@ Result<MacroStatement> numbered(MacroKind kind, bool holds, Cursor& cursor, cons
     if (kind != MacroKind::jump && (*number < 1 || *number > kLastLoop)) {
         return cursor.refuse(start, "the number of a loop is not one from 1 to 127", "write DO1 and END1");
     }
-    if (!cursor.at_end() && cursor.peek() != '(') {
-        return cursor.refuse(cursor.at, "nothing but a comment may follow here",
-                             "move the rest to the next line");
-    }
     return MacroStatement{kind, holds, *number};
 }
 
