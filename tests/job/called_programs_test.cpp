@@ -83,6 +83,13 @@ TEST(CalledPrograms, of_heidenhain_controls_have_labels_of_their_own) {
               "10 END PGM MAIN MM\n");
     files.put("SUB.H", "0 BEGIN PGM SUB MM\n1 LBL 1\n2 L IX+2\n3 CALL LBL 1 REP 3\n4 END PGM SUB MM\n");
     EXPECT_NEAR(feed_mm(read(files, "MAIN.H")), 4 * 2 + 2 * 3, 1e-9);
+    // The file may have the letters of the call.
+    MemorySource mixed;
+    mixed.put("Main.h",
+              "0 BEGIN PGM Main MM\n1 TOOL CALL 1 Z S100 F100\n2 L X+0 Y+0 Z+0 R0 FMAX M3\n"
+              "3 CALL PGM TNC:\\Sub.h\n4 END PGM Main MM\n");
+    mixed.put("Sub.h", "0 BEGIN PGM Sub MM\n1 L X+7\n2 END PGM Sub MM\n");
+    EXPECT_NEAR(feed_mm(read(mixed, "Main.h")), 7, 1e-9);
     // Without the file its moves are left out.
     MemorySource alone;
     alone.put("MAIN.H", *files.read("MAIN.H", 1 << 20));

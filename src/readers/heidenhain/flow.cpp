@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "readers/control/block_text.hpp"
 #include "readers/heidenhain/interpreter.hpp"
 #include "readers/text/text_lines.hpp"
 
@@ -15,7 +16,7 @@ constexpr std::size_t kDeepestCalls = 100;
 constexpr double kEqual = 1e-9;  // FN 9: numbers closer than this are equal
 constexpr long kMostRepeats = 65534;
 
-// The name of a program without its folder and ending, in upper case.
+// The name of a program without its folder and ending.
 std::string bare_name(std::string_view name) {
     name = trimmed(name);
     if (name.starts_with('"')) name.remove_prefix(1);
@@ -23,9 +24,7 @@ std::string bare_name(std::string_view name) {
     if (const std::size_t slash = name.find_last_of("\\/:"); slash != std::string_view::npos)
         name.remove_prefix(slash + 1);
     if (const std::size_t dot = name.rfind('.'); dot != std::string_view::npos) name = name.substr(0, dot);
-    std::string bare(name);
-    std::transform(bare.begin(), bare.end(), bare.begin(), to_upper);
-    return bare;
+    return std::string(name);
 }
 
 }  // namespace
@@ -168,7 +167,7 @@ Result<void> Interpreter::read_system(LineReader& in) {
 
 // CALL PGM: a program of the text runs from its BEGIN PGM to its END PGM.
 Result<void> Interpreter::call_program(std::string name) {
-    const std::string bare = bare_name(name);
+    const std::string bare = upper(bare_name(name));
     const auto unit = std::find_if(programs_.begin(), programs_.end(),
                                    [&](const Unit& known) { return known.name == bare; });
     if (unit == programs_.end()) return leave_out_program(std::move(name));

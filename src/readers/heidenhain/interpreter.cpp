@@ -73,10 +73,10 @@ Result<motion::Program> Interpreter::run() {
 Result<void> Interpreter::run_line() {
     if (auto taken = take_line(); !taken) return taken;
     read_notes(lines_[at_]);
-    if (line_.text.empty()) return {};
+    if (line_.text.empty()) return skip_text();
     if (line_.text[0] == '/' && path_.options.skip_deletable_blocks) {
         if (path_.first(kSkipped)) path_.warn(line_.number, "blocks that begin with '/' are skipped");
-        return {};
+        return skip_text();
     }
     LineReader in(line_, source_name_, parameters_);
     return execute(in);
@@ -147,12 +147,23 @@ Result<void> Interpreter::skip_continuation() {
     }
 }
 
+// Leaves out the lines joined by '~' to a comment or a skipped block. A line with a number is a block of its
+// own, and a comment that ends with ~~ is a rule drawn across the page.
+Result<void> Interpreter::skip_text() {
+    while (line_.goes_on && at_ + 1 < lines_.size()) {
+        const std::string_view next = trimmed(lines_[at_ + 1]);
+        if (trimmed(lines_[at_]).ends_with("~~") || (!next.empty() && is_digit(next[0]))) return {};
+        if (const auto more = goes_on(); !more) return std::unexpected(more.error());
+    }
+    return {};
+}
+
 Result<void> Interpreter::execute(LineReader& in) {
     if (free_ && !keeps_free_contour()) {
         if (auto done = close_free_contour(); !done) return done;
     }
     const char first = line_.text[0];
-    if (first == '*' || first == '%' || first == '?' || first == '(') return {};
+    if (first == '*' || first == '%' || first == '?' || first == '(') return skip_text();
     if (to_upper(first) == 'Q') return assign(in);
     if (in.take("BEGIN")) return begin();
     if (in.take("END")) {

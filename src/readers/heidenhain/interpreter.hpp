@@ -103,6 +103,7 @@ class Interpreter {
     Result<void> execute_path(LineReader& in);
     Result<void> pass_over(const std::string& what);
     Result<void> skip_continuation();
+    Result<void> skip_text();
     Result<void> begin();
     Result<motion::Program> finish();
 

@@ -100,6 +100,15 @@ TEST(HeidenhainLanguage, LeavesOutProgramsThatAreNotAtHand) {
     EXPECT_TRUE(warns_of(program, 4, "TNC:\\HOME.H is not at hand"));
 }
 
+TEST(HeidenhainLanguage, LeavesOutTheLinesJoinedToACommentOrASkippedBlock) {
+    const motion::Program program = conversational(after_start(
+        "3 ;WHAT THIS IS ~\n FOR ~\n IS TOLD HERE\n* A HEADING ~\n OF TWO\n4 Q200 = 3\n"
+        "/ 5 CYCL DEF 200 ~\n   Q200=7 ~\n   Q201=-9\n6 ;~~~~~\nL X+Q200 F100\n7 ; ~\n8 L X+5\n"));
+    ASSERT_EQ(program.moves.size(), 2U);
+    EXPECT_NEAR(program.moves[0].end.tip_mm.x, 3, 1e-12);
+    EXPECT_NEAR(program.moves[1].end.tip_mm.x, 5, 1e-12);
+}
+
 TEST(HeidenhainLanguage, CountsFeedsPerTurn) {
     const motion::Program program = conversational(
         after_start("L X+5 FU0.1\nL X+9 F100\nL X+12 F0.2 M136\nL X+15 F0.2\nL X+20 F300 M137\n"
