@@ -41,8 +41,9 @@ bool is_quadrant_mode(Code one, Code other) {
     return (one.tenths == kQuadrantMode && plain(other)) || (other.tenths == kQuadrantMode && plain(one));
 }
 
-// Groups of which each code does nothing but set a mode.
-bool may_be_overruled(GGroup group) {
+// Codes that do nothing but set a mode. A cycle beside G0 to G3, of another group on Fanuc controls, is none.
+bool may_be_overruled(GGroup group, Code one, Code other) {
+    if (group == GGroup::motion && std::max(one.tenths, other.tenths) > 30) return false;
     constexpr GGroup groups[] = {GGroup::motion,       GGroup::plane,      GGroup::distance,
                                  GGroup::feed_mode,    GGroup::units,      GGroup::cutter_side,
                                  GGroup::return_level, GGroup::work_offset};
@@ -80,7 +81,7 @@ Result<void> Command::add_g(const Word& word) {
         return {};
     }
     if (place && place->tenths != *tenths && *group != GGroup::idle) {
-        if (!last_holds_ || !may_be_overruled(*group))
+        if (!last_holds_ || !may_be_overruled(*group, *place, code))
             return refuse_pair(line_, word, place->tenths, *tenths);
         overruled_ = *place;
         overruling_ = code;

@@ -326,6 +326,7 @@ TEST(GcodeReader, RefusesMacroStatementsThatItCannotRun) {
         {"G0 X#5021\n", 1, 5, "a state of the control that nobody knows"},
         {"G0 X#5430\n", 1, 5, "a state of the control that nobody knows"},
         {"G43 G49 H1\n", 1, 5, "G49 contradicts G43"},
+        {"G0 G81 X1 Z-1 R1\n", 1, 4, "G81 contradicts G0"},
         {"#100000=1\n", 1, 1, "from 1 to 99999"},
         {"#0=1\n", 1, 1, "#0 cannot be assigned"},
         {"G65 P9 X1\nM30\nO8\nM99\n", 1, 5, "G65 calls O9"},
