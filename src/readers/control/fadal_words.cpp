@@ -139,7 +139,7 @@ class FadalWords {
     std::string subroutine(const std::string& number) {
         if (!all_digits(number) || number.size() < 3 || number.size() > 4) return "GFADALL";
         const int code = std::stoi(number);
-        const std::string name = program(code / 100);
+        std::string name = program(code / 100);
         mode_ = Mode::unknown;
         if (code % 100 > 0) return "M98P" + name.substr(1) + "L" + std::to_string(code % 100);
         defines_ = has_subroutines_ = true;
@@ -165,7 +165,7 @@ class FadalWords {
     }
 
     std::string in_fanuc(const FadalWord& word, const std::string& turns) const {
-        const std::string plain = word.letter + word.value;
+        std::string plain = word.letter + word.value;
         switch (word.letter) {
             case 'E':
                 if (word.value == "0") return "";

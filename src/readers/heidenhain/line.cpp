@@ -189,7 +189,9 @@ Result<std::optional<double>> LineReader::number() {
         skip_blanks();
         if (peek() != '=' && !parameters_.knows(**q)) {
             return refuse(first_column, Parameters::name(**q) + " holds a value that only the machine knows",
-                          "set it in the program, for example " + Parameters::name(**q) + " = 5");
+                          **q == kRadiusParameter
+                              ? "give the tool's diameter to the job, or write TOOL DEF with its radius R"
+                              : "set it in the program, for example " + Parameters::name(**q) + " = 5");
         }
         if (peek() != '=') return sign * parameters_.get(**q);
         at_ = start;  // Q200=2 of a cycle is a separate word

@@ -13,6 +13,7 @@ namespace tribo::readers::heidenhain {
 
 // Indices: Q0 is 0, QL0 is kLocal, QR0 is kRemanent.
 inline constexpr int kLocal = 2000, kRemanent = 2500, kParameters = 3000;
+inline constexpr int kRadiusParameter = 108;  // the control sets Q108 to the radius of the tool
 
 class Parameters {
   public:

@@ -11,7 +11,6 @@ namespace tribo::readers::heidenhain {
 namespace {
 
 constexpr double kSame = 1e-9;
-constexpr int kRadiusParameter = 108;  // the control sets Q108 to the radius of the tool
 
 }  // namespace
 

@@ -381,6 +381,7 @@ TEST(HeidenhainLanguage, RefusesWhatHasNoPath) {
         {after_start("PATTERN DEF POS1 (X+5 Y+5\n"), 4, 1, "a pattern has no ')'"},
         {after_start("FUNCTION MODE TURN\n"), 4, 10, "only FUNCTION MODE MILL is read"},
         {after_start("FUNCTION PARAXMODE X Y W\n"), 4, 10, "FUNCTION PARAXMODE is not read"},
+        {after_start("TOOL CALL 9 Z\nL X+Q108\n"), 5, 4, "Q108 holds a value that only"},
         {after_start("L X+5 FZ0.1\n"), 4, 7, "FZ without a speed, or without the number of teeth"},
         {after_start("CC Z+5\n"), 4, 4, "a pole needs two axes"},
     };
