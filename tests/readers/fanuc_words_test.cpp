@@ -336,6 +336,7 @@ TEST(FanucWords, of_fadal_that_have_none_are_refused) {
     }
     EXPECT_NE(fault(kFadalStart + "X1 E60\n", OtherControl::fadal).find("E of Fadal"), std::string::npos);
     EXPECT_NE(fault(kFadalStart + "X1.2.3\n", OtherControl::fadal), "");
+    EXPECT_NE(fault(kFadalStart + "X1.2.\n", OtherControl::fadal), "");
 }
 
 TEST(FanucWords, keep_the_lines_and_leave_other_programs_alone) {

@@ -89,8 +89,9 @@ FadalBlock read_block(std::string_view line) {
             number = std::string_view(text.data() + at, to - at);
         }
         at = to;
-        block.is_whole =
-            block.is_whole && is_letter(letter) && number.find_first_of("0123456789") != number.npos;
+        const bool is_number =
+            number.find_first_of("0123456789") != number.npos && std::ranges::count(number, '.') < 2;
+        block.is_whole = block.is_whole && is_letter(letter) && is_number;
         if (letter != 'N') block.words.push_back({letter, shortened(number)});
     }
     return block;
