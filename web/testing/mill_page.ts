@@ -18,6 +18,13 @@ export const JOB = jobText("[[0, 0, -6], [30, 16, 0]]");
 /** A slot, then a rapid through what is left beside it. */
 export const PROGRAM = "G21 G90\nG0 X-5 Y5 Z5\nG1 Z-2\nG1 X35\nG0 Z5\nG0 Y9 X-5\nG1 Z-2\nG1 X35\nG0 Y14 X20\n";
 
+/** Presses at a place of the page and rests, until the part is felt. */
+export async function feelAt(page: Page, x: number, y: number): Promise<void> {
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.waitForSelector("#scene.touching", { timeout: PATIENCE_MS });
+}
+
 export class MillPage {
   /** Faults of scripts, and what the content security policy refused. */
   readonly problems: string[] = [];

@@ -44,7 +44,7 @@ export interface Parts {
 }
 
 // To feel the part.
-const FEEL_IT = word("Press on the part to feel it");
+const FEEL_IT = word("Hold a press on the part to feel it");
 
 export class Incoming implements Listener {
   // Opened, and not shown yet.
@@ -265,7 +265,7 @@ export class Incoming implements Listener {
   /** What there is to do after the film. */
   invite(): void {
     this.felt = false;
-    this.invitation = word("Rub it, or drop a job of your own here");
+    this.invitation = word("Hold a press on the part to feel it, or drop a job of your own here");
     advise(t(this.invitation));
   }
 

@@ -78,7 +78,7 @@ const chips = new ChipList((mark) => seek(mark.time));
 const finger = new Finger(scene, () => source);
 const send = (command: Command) => source?.send(command);
 const parameters = new Parameters(send);
-const feel = new FeelPanel(send);
+const feel = new FeelPanel(send, (on) => (finger.atOnce = on));
 // In the limits of the command.
 const chatter = new ChatterPanel((rpm) => {
   const { programmedRpm } = incoming;
@@ -300,6 +300,7 @@ listenToHeadset(scene, finger, { hear, play: () => transport.toggle() });
 listenToKeys(scene, finger, {
   play: () => transport.toggle(),
   mute: () => element("sound").click(),
+  feel: () => element("press-feels").click(),
   seek: (by) => transport.seekBy(by),
   nextProblem: goToProblem,
   loop: () => element("loop").click(),

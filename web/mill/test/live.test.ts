@@ -10,6 +10,7 @@ import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { file, hasBrowser, launch, PATIENCE_MS } from "../../testing/browser.js";
 import { jobText } from "../../testing/job.js";
 import { startLive } from "../../testing/live.js";
+import { feelAt } from "../../testing/mill_page.js";
 import { PROGRAM } from "../../tools/places.js";
 
 const JOB = jobText("[[0, 0, -8], [40, 20, 0]]");
@@ -127,8 +128,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
     "lets the part be felt, tells how the servo does, and stops it",
     async () => {
       const box = (await page.locator("#stage").boundingBox())!;
-      await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.62 * box.height);
-      await page.mouse.down();
+      await feelAt(page, box.x + 0.5 * box.width, box.y + 0.62 * box.height);
       await page.mouse.move(box.x + 0.51 * box.width, box.y + 0.62 * box.height, { steps: 4 });
       await page.waitForFunction(() => parseFloat(document.getElementById("felt")?.textContent ?? "0") > 0.05, null, {
         timeout: PATIENCE_MS,
@@ -233,6 +233,7 @@ describe.runIf(hasBrowser && existsSync(PROGRAM))("the live page", () => {
               : [{ x: box.x + x * box.width, y: box.y + 0.62 * box.height, radiusX: 8, radiusY: 8, force: 0.5 }],
         });
       await touch("touchStart", 0.5);
+      await tablet.waitForSelector("#scene.touching", { timeout: PATIENCE_MS });
       for (let n = 0; n < 8; ++n) {
         await touch("touchMove", 0.5 + 0.005 * (n % 2));
         await tablet.waitForTimeout(50);

@@ -11,6 +11,7 @@ const NEARER = 0.9;
 export interface KeyActions {
   play(): void;
   mute(): void;
+  feel(): void;
   seek(seconds: number): void;
   nextProblem(): void;
   loop(): void;
@@ -30,6 +31,7 @@ export function listenToKeys(scene: Scene, finger: Finger, actions: KeyActions):
     else if (arrow) scene.orbit(TURN * arrow[0], TURN * arrow[1]);
     else if (event.key === " ") actions.play();
     else if (event.key === "m" || event.key === "M") actions.mute();
+    else if (event.key === "f" || event.key === "F") actions.feel();
     else if (event.key === "n" || event.key === "N") actions.nextProblem();
     else if (event.key === "l" || event.key === "L") actions.loop();
     else if (event.key === "+" || event.key === "=") scene.orbit(0, 0, NEARER);

@@ -135,8 +135,10 @@ export class Scene {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, PIXEL_RATIO_CAP));
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, canvas);
-    this.controls.addEventListener("change", () => this.draw());
-    this.controls.addEventListener("start", () => (this.fitted = false));
+    this.controls.addEventListener("change", () => {
+      this.fitted = false;
+      this.draw();
+    });
     this.light = new Light(this.renderer, this.three, this.camera);
     this.tool = new Tool(this.palette.cutter);
     this.overlays = new Overlays(this.palette);

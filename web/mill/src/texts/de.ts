@@ -11,13 +11,14 @@ export const TABLE: Table = {
   Release: "Freigeben",
   Stop: "Halt",
   "No line to the engine: {why}. Trying again.": "Keine Verbindung zum Rechenkern: {why}. Neuer Versuch läuft.",
-  "Press on the part to feel it": "Auf das Werkstück drücken, um es zu fühlen",
+  "Hold a press on the part to feel it": "Auf dem Werkstück gedrückt halten, um es zu fühlen",
   "Line {line}: {what}. The clock stands; Play goes on.":
     "Zeile {line}: {what}. Die Uhr steht; „Abspielen“ setzt fort.",
   "Reading ...": "Wird gelesen ...",
   "{what} cannot be opened: {why}.": "{what} lässt sich nicht öffnen: {why}.",
   "The link": "Der Link",
-  "Rub it, or drop a job of your own here": "Reiben Sie darüber, oder legen Sie einen eigenen Auftrag hier ab",
+  "Hold a press on the part to feel it, or drop a job of your own here":
+    "Auf dem Werkstück gedrückt halten, um es zu fühlen, oder einen eigenen Auftrag hier ablegen",
   "There is no sound: {why}": "Kein Ton: {why}",
   rubs: "reibt",
   overload: "Überlast",
@@ -392,6 +393,9 @@ export const TABLE: Table = {
   "show all": "alles zeigen",
   shift: "Umschalt",
   "and an arrow": "und ein Pfeil",
+  "feel with every press: on, off": "bei jedem Druck fühlen: ein, aus",
+  "Every press on the part feels it; off, a long press does (F)":
+    "Jeder Druck auf das Werkstück fühlt es; sonst ein langer (F)",
   "feel the part beside the finger": "das Werkstück neben dem Finger fühlen",
   "these keys": "diese Tasten",
   Close: "Schließen",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The finger: mouse, touch or pen on the part, a gamepad, or keys. A press on the picture presses into the part; a
-// hovering pointer is above it.
+// The finger: mouse, touch or pen on the part, a gamepad, or keys. A drag turns the camera; a long press, a press of a pen,
+// and with `atOnce` any press, presses into the part. A hovering pointer is above it.
 
 import { oncePerFrame } from "@tribo/ui/frame";
 import { rumble } from "@tribo/ui/gamepad";
@@ -12,12 +12,21 @@ import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 const PRESS = 0.012;
 const HOVER = 0.01;
 const GAMEPAD_DEADZONE = 0.15;
+// A press that rests this long feels, if it moves no farther than this, CSS pixels: a drag turns the camera.
+const LONG_PRESS_MS = 350;
+const STILL_PX = 6;
+
+type Press = Pick<PointerEvent, "pointerId" | "offsetX" | "offsetY" | "pressure">;
 
 export class Finger {
   enabled = false;
+  // Every press on the part feels.
+  atOnce = false;
   // An arm moves the finger itself.
   arm = false;
   private down: number | undefined;
+  // A press that may become a long one.
+  private resting: Press | undefined;
   private at: Vec3 | undefined;
   private keys = false;
   private padDown = false;
@@ -32,7 +41,7 @@ export class Finger {
     private readonly source: () => Source | undefined,
   ) {
     const { canvas } = scene;
-    // Before the listeners of the camera: a drag that begins on the part is a touch, any other turns the camera.
+    // Before the listeners of the camera: a press that feels does not turn it.
     canvas.addEventListener("pointerdown", (event) => this.press(event), { capture: true });
     canvas.addEventListener("pointermove", (event) => this.move(event), { capture: true });
     for (const kind of ["pointerup", "pointercancel"] as const)
@@ -40,6 +49,8 @@ export class Finger {
     canvas.addEventListener("pointerleave", () => {
       if (this.down === undefined && !this.keys) this.leave();
     });
+    // A long press asks for a menu on some systems.
+    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   }
 
   get touching(): boolean {
@@ -84,18 +95,44 @@ export class Finger {
   }
 
   private press(event: PointerEvent): void {
-    if (!this.enabled || this.arm || event.button !== 0 || this.down !== undefined) return;
-    const hit = this.scene.pick(event.offsetX, event.offsetY);
-    if (!hit) return;
-    this.down = event.pointerId;
+    // A second finger pinches.
+    this.resting = undefined;
+    if (!this.enabled || this.arm || event.button !== 0 || !event.isPrimary || this.down !== undefined) return;
+    if (!this.scene.pick(event.offsetX, event.offsetY)) return;
+    const press = pressOf(event);
+    // A pen is held to act on what it points at, by its pressure.
+    if (this.atOnce || event.pointerType === "pen") this.feel(press);
+    else this.rest(press);
+  }
+
+  private rest(press: Press): void {
+    this.resting = press;
+    const feel = () => {
+      if (this.resting === press) this.feel(press);
+    };
+    // With the next picture: a slow page may not have heard of a move yet.
+    setTimeout(() => requestAnimationFrame(feel), LONG_PRESS_MS);
+  }
+
+  private feel(press: Press): void {
+    this.resting = undefined;
+    if (!this.enabled) return;
+    this.down = press.pointerId;
+    // Also in a drag that the camera has begun to follow.
     this.scene.controls.enabled = false;
-    this.scene.canvas.setPointerCapture(event.pointerId);
+    this.scene.canvas.setPointerCapture(press.pointerId);
     this.scene.canvas.classList.add("touching");
-    this.follow(event);
+    this.follow(press);
   }
 
   private move(event: PointerEvent): void {
     if (!this.enabled || this.arm) return;
+    if (this.resting) {
+      const { offsetX, offsetY } = this.resting;
+      if (Math.hypot(event.offsetX - offsetX, event.offsetY - offsetY) <= STILL_PX) return;
+      this.resting = undefined;
+      this.leave();
+    }
     if (this.down === undefined) {
       if (event.pointerType === "touch" || event.buttons !== 0) return;
       const hit = this.scene.pick(event.offsetX, event.offsetY);
@@ -106,15 +143,16 @@ export class Finger {
     if (event.pointerId === this.down) this.follow(event);
   }
 
-  private follow(event: PointerEvent): void {
-    const hit = this.scene.pick(event.offsetX, event.offsetY);
+  private follow({ offsetX, offsetY, pressure }: Press): void {
+    const hit = this.scene.pick(offsetX, offsetY);
     if (!hit) return;
     // A pen reports its pressure, which sets the depth; a mouse reports 0.5.
-    const depth = PRESS * this.scene.extent() * (event.pressure > 0 ? 2 * event.pressure : 1);
+    const depth = PRESS * this.scene.extent() * (pressure > 0 ? 2 * pressure : 1);
     this.tell(along(hit.point, hit.normal, -depth), true);
   }
 
   private release(event: PointerEvent): void {
+    if (event.pointerId === this.resting?.pointerId) this.resting = undefined;
     if (event.pointerId !== this.down) return;
     this.down = undefined;
     this.scene.controls.enabled = true;
@@ -152,6 +190,10 @@ export class Finger {
   }
 }
 
+// An event loses its place on the canvas once it is handled.
+function pressOf({ pointerId, offsetX, offsetY, pressure }: PointerEvent): Press {
+  return { pointerId, offsetX, offsetY, pressure };
+}
 function beyondDeadZone(deflection = 0): number {
   return Math.abs(deflection) < GAMEPAD_DEADZONE ? 0 : deflection;
 }
