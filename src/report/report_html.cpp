@@ -11,6 +11,7 @@
 #include <span>
 #include <string_view>
 
+#include "base/text/decimal.hpp"
 #include "files/json/json.hpp"
 #include "report/html_parts.hpp"
 #include "report/report_page.hpp"
@@ -21,10 +22,11 @@ namespace {
 constexpr std::size_t kMostRows = 12'000;  // the plots have fewer pixels
 constexpr std::size_t kMostNotices = 30;
 constexpr double kFinestMm = 1e-3;  // no length of the page is known better
+constexpr int kSetDigits = 6;       // of feeds and speeds, which the program sets
 constexpr double kGapShare = 0.5;   // of the duration of a row; a longer pause is a gap between cuts
 
 // Rounds to significant digits, without an exponent for numbers of usual size.
-std::string number(double value, int digits = 4) {
+std::string number(double value, int digits) {
     std::array<char, 40> text = {};
     std::snprintf(text.data(), text.size(), "%.*g", digits, value);
     const double size = std::abs(value);
@@ -34,14 +36,25 @@ std::string number(double value, int digits = 4) {
     return text.data();
 }
 
-// Three digits, and none below a micrometre.
+// For the reader.
+std::string figure(double value) {
+    return format_digits(value, 3);
+}
+
+// None below a micrometre.
 std::string length_text(double mm) {
-    if (mm != 0 && std::abs(mm) < 0.5 * kFinestMm) return "&lt; " + number(kFinestMm);
-    return number(std::round(mm / kFinestMm) * kFinestMm, 3);
+    if (mm != 0 && std::abs(mm) < 0.5 * kFinestMm) return "&lt; " + figure(kFinestMm);
+    return figure(std::round(mm / kFinestMm) * kFinestMm);
+}
+
+// In full hundredths of a millimetre, to find it.
+std::string place(Vec3 mm) {
+    const auto hundredths = [](double v) { return format_decimal(std::round(100 * v) / 100 + 0.0); };
+    return hundredths(mm.x) + ", " + hundredths(mm.y) + ", " + hundredths(mm.z);
 }
 
 std::string time_text(double seconds) {
-    if (seconds < 100) return number(seconds, 3) + " <small>s</small>";
+    if (seconds < 100) return figure(seconds) + " <small>s</small>";
     const long s = std::lround(seconds);
     std::array<char, 32> text = {};
     if (s >= 3600) {
@@ -59,12 +72,12 @@ std::string card(const std::string& label, const std::string& value, const std::
 
 std::string cards(const Summary& s) {
     const auto unit = [](double value, const char* name) {
-        return number(value, 3) + " <small>" + name + "</small>";
+        return figure(value) + " <small>" + name + "</small>";
     };
     const auto length = [](double mm) { return length_text(mm) + " <small>mm</small>"; };
     const auto band = [&](const ForceValue& value) {
         if (!(value.low < value.high)) return std::string();
-        return number(value.low, 3) + " to " + number(value.high, 3);
+        return figure(value.low) + " to " + figure(value.high);
     };
     const double cm3 = 1e-3;
     std::string html;
@@ -75,8 +88,7 @@ std::string cards(const Summary& s) {
     if (s.tooth_passing_hz) html += card("Tooth passing", unit(*s.tooth_passing_hz, "Hz"));
     html += card("Duration", time_text(s.duration_s), "cutting " + time_text(s.cutting_s));
     html += card("Path", unit(s.path_mm * 1e-3, "m"), "feed moves");
-    html +=
-        card("Removed", unit(s.removed_mm3 * cm3, "cm³"), number(s.remaining_mm3 * cm3, 3) + " cm³ remain");
+    html += card("Removed", unit(s.removed_mm3 * cm3, "cm³"), figure(s.remaining_mm3 * cm3) + " cm³ remain");
     if (s.gouge_max_mm) html += card("Deepest gouge", length(*s.gouge_max_mm));
     if (s.rest_max_mm) html += card("Most material left", length(*s.rest_max_mm));
     if (s.chatter) {
@@ -105,9 +117,8 @@ std::string list(std::vector<std::string> items, const std::string& title, std::
 std::string notices(const Summary& s) {
     std::vector<std::string> collisions, warnings;
     for (const SummaryCollision& c : s.collisions) {
-        collisions.push_back((c.line > 0 ? "line " + std::to_string(c.line) + ", " : "") + number(c.t_s) +
-                             " s: " + c.kind + ", tip at " + number(c.tip_mm.x) + ", " + number(c.tip_mm.y) +
-                             ", " + number(c.tip_mm.z) + " mm");
+        collisions.push_back((c.line > 0 ? "line " + std::to_string(c.line) + ", " : "") + figure(c.t_s) +
+                             " s: " + c.kind + ", tip at " + place(c.tip_mm) + " mm");
     }
     for (const Warning& w : s.warnings) warnings.push_back(w.message());
     const auto counted = [](std::size_t n, const char* what) {
@@ -138,13 +149,11 @@ std::string worst_table(const std::vector<ReportRow>& worst) {
     table.hint = "Each at its worst place. Force: the largest in a turn, with its band, N.";
     table.header = {"Line", "Time, s",   "Tip, mm",      "Force",
                     "Band", "Depth, mm", "Feed, mm/min", "Spindle, rpm"};
-    const auto round_mm = [](double mm) { return number(std::round(mm / kFinestMm) * kFinestMm, 6); };
     for (const ReportRow& r : worst)
-        table.rows.push_back(
-            {std::to_string(r.line), number(r.t_s),
-             round_mm(r.tip_mm.x) + ", " + round_mm(r.tip_mm.y) + ", " + round_mm(r.tip_mm.z),
-             number(r.peak_n, 3), number(r.peak_low_n, 3) + " to " + number(r.peak_high_n, 3),
-             number(r.depth_mm, 3), number(r.feed_mm_per_min), number(r.rpm)});
+        table.rows.push_back({std::to_string(r.line), figure(r.t_s), place(r.tip_mm), figure(r.peak_n),
+                              figure(r.peak_low_n) + " to " + figure(r.peak_high_n), figure(r.depth_mm),
+                              format_digits(r.feed_mm_per_min, kSetDigits),
+                              format_digits(r.rpm, kSetDigits)});
     return table.rows.empty() ? "" : html_of(table);
 }
 
@@ -163,8 +172,8 @@ std::string audio(const ReportSound& sound) {
     std::string html = "<audio controls preload=\"metadata\" src=\"data:audio/wav;base64," +
                        base64(wav_bytes_16(heard_part, 2, sound.rate_hz)) + "\"></audio>\n";
     if (heard < sound.seconds - 0.01) {
-        html += "<p class=\"hint\">Plays " + number(heard, 3) + " s from " + number(sound.heard_from_s, 4) +
-                " s on; sound.wav has all " + number(sound.seconds, 4) + " s.</p>\n";
+        html += "<p class=\"hint\">Plays " + figure(heard) + " s from " + figure(sound.heard_from_s) +
+                " s on; sound.wav has all " + figure(sound.seconds) + " s.</p>\n";
     }
     return html;
 }

@@ -146,6 +146,14 @@ RC_GTEST_PROP(FormatDecimal, gives_floats_no_more_digits_than_they_need, (std::u
     RC_ASSERT(text.size() <= 16u);
 }
 
+TEST(FormatDecimal, rounds_to_digits_without_an_exponent_for_sizes_of_a_workshop) {
+    EXPECT_EQ(format_digits(229.82, 3), "230");
+    EXPECT_EQ(format_digits(-0.0021244, 3), "-0.00212");
+    EXPECT_EQ(format_digits(500'100, 3), "500000");
+    EXPECT_EQ(format_digits(9'996'000, 2), "1e+07");
+    EXPECT_EQ(format_digits(0, 3), "0");
+}
+
 TEST(FormatDecimal, writes_the_shortest_text) {
     EXPECT_EQ(format_decimal(0.1), "0.1");
     EXPECT_EQ(format_decimal(0.1f), "0.1");

@@ -192,8 +192,8 @@ std::string audit_html(const AuditCall& call, const AuditAnswer& answer, const P
     if (answer.errors) tools.header.insert(tools.header.end(), of_part.begin(), of_part.end());
     for (const session::LoadTally& tool : audit.tools) {
         const milling::Cutter& cutter = setup.cutters[tool.cutter];
-        std::vector<std::string> row{tool_name(cutter), job::tool_words(cutter), digits(tool.cutting_s),
-                                     digits(tool.feed_mm)};
+        std::vector<std::string> row{tool_name(cutter), job::tool_words(cutter), digits(tool.cutting_s, 3),
+                                     digits(tool.feed_mm, 3)};
         for (std::size_t n = 0; n < session::kLoadKinds; ++n) {
             const auto kind = static_cast<LoadKind>(n);
             const std::string ratio = ratio_text(tool, kind, model);

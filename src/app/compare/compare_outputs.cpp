@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kShownPairs = 10;
 
-std::string digits(double value, int count = 4) {
+std::string digits(double value, int count = 3) {
     return format_digits(value, count);
 }
 
@@ -126,7 +126,7 @@ std::string verdict(const Comparison& c) {
                 digits(*a) + " " + kTotals[n].unit;
         if (*a > 0) {
             const double percent = 100 * (*b - *a) / *a;
-            text += std::string(" (") + (percent > 0 ? "+" : "") + digits(percent, 3) + " %)";
+            text += std::string(" (") + (percent > 0 ? "+" : "") + digits(percent) + " %)";
         }
     };
     change("duration_s", "time");
@@ -136,8 +136,7 @@ std::string verdict(const Comparison& c) {
     if (c.parts) {
         const surface::SurfaceDifference& s = c.parts->surfaces;
         const double most = std::max(s.more ? s.more->mm : 0, s.less ? -s.less->mm : 0);
-        text +=
-            most > 0 ? ". The parts are up to " + digits(most, 3) + " mm apart" : ". The parts are the same";
+        text += most > 0 ? ". The parts are up to " + digits(most) + " mm apart" : ". The parts are the same";
     }
     return text + ".";
 }
@@ -335,8 +334,8 @@ void print(const Comparison& c) {
         if (!a && !b) continue;
         const std::string name =
             std::string(kTotals[n].name) + (*kTotals[n].unit ? ", " : "") + kTotals[n].unit;
-        std::printf("%-26s %12s %12s %12s\n", name.c_str(), a ? digits(*a, 5).c_str() : "-",
-                    b ? digits(*b, 5).c_str() : "-", a && b ? digits(*b - *a).c_str() : "");
+        std::printf("%-26s %12s %12s %12s\n", name.c_str(), a ? digits(*a).c_str() : "-",
+                    b ? digits(*b).c_str() : "-", a && b ? digits(*b - *a).c_str() : "");
     }
     for (const std::string& fact : part_facts(c)) std::printf("%s\n", printable(fact).c_str());
     for (const std::string& fact : c.set_up) std::printf("%s\n", printable(fact).c_str());

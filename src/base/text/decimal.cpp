@@ -193,10 +193,10 @@ double value_of(const Decimal& decimal) {
     return from_all_digits(decimal);
 }
 
-template <class Float>
-void append_shortest(std::string& text, Float value) {
+template <class Float, class... Format>
+void append_shortest(std::string& text, Float value, Format... format) {
     std::array<char, 32> buffer;
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format...).ptr;
     text.append(buffer.data(), end);
 }
 
@@ -262,7 +262,14 @@ std::string format_digits(double value, int digits) {
     if (value == 0 || !std::isfinite(value)) return format_decimal(value);
     const double digit = math::pow(10, std::floor(math::log10(std::abs(value))) - (digits - 1));
     // As a float: the shortest text hides the rounding of the product.
-    return format_decimal(static_cast<float>(std::round(value / digit) * digit));
+    const auto rounded = static_cast<float>(std::round(value / digit) * digit);
+    // All integers of this size are floats.
+    if (const float size = std::abs(rounded); size >= 1 && size < 1e7F) {
+        std::string text;
+        append_shortest(text, rounded, std::chars_format::fixed);
+        return text;
+    }
+    return format_decimal(rounded);
 }
 std::string format_decimal(double value) {
     std::string text;

@@ -24,7 +24,7 @@ std::size_t parse_decimal(std::string_view text, double& value,
 // float, to the same float.
 std::string format_decimal(double value);
 std::string format_decimal(float value);
-// Rounded to so many significant digits: "0.12", "1300".
+// Rounded to so many significant digits: "0.12", "1300"; no exponent from 1 up to ten million.
 std::string format_digits(double value, int digits);
 void append_decimal(std::string& text, double value);
 void append_decimal(std::string& text, float value);

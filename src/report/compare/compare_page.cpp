@@ -13,22 +13,23 @@ namespace tribo::report {
 namespace {
 
 constexpr std::size_t kMostSteps = 4000;  // the plots have fewer pixels
+constexpr int kDigits = 3;                // of values in text
 
 std::string text_of(const std::optional<double>& value) {
-    return value ? format_digits(*value, 5) : "not known";
+    return value ? format_digits(*value, kDigits) : "not known";
 }
 
 std::string change_of(const ComparedTotal& t) {
     if (!t.a || !t.b) return "";
     const double change = *t.b - *t.a;
     if (change == 0) return "0";
-    return (change > 0 ? "+" : "") + format_digits(change, 4);
+    return (change > 0 ? "+" : "") + format_digits(change, kDigits);
 }
 
 std::string percent_of(const ComparedTotal& t) {
     if (!t.a || !t.b || *t.a == 0 || *t.a == *t.b) return "";
     const double percent = 100 * (*t.b - *t.a) / std::abs(*t.a);
-    return (percent > 0 ? "+" : "") + format_digits(percent, 3) + " %";
+    return (percent > 0 ? "+" : "") + format_digits(percent, kDigits) + " %";
 }
 
 std::string totals_table(const std::vector<ComparedTotal>& totals) {
@@ -84,7 +85,7 @@ bool can_sound(const ComparePage& page) {
 
 std::string listen(const ComparePage& page) {
     if (!can_sound(page)) return "";
-    const auto from = [](const ReportSound& s) { return format_digits(s.heard_from_s, 4) + " s"; };
+    const auto from = [](const ReportSound& s) { return format_digits(s.heard_from_s, kDigits) + " s"; };
     return "<section id=\"listen\"><h2>Sound</h2>\n<p class=\"hint\">Both sounds run at the same time from "
            "the "
            "beginning of their cuts (A from " +

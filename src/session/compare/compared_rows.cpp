@@ -117,7 +117,7 @@ void join_in_steps(std::span<const ComparedRow> a, std::span<const ComparedRow> 
 }
 
 std::string volumes_in_words(double a_mm3, double b_mm3) {
-    return format_digits(a_mm3, 4) + " and " + format_digits(b_mm3, 4) + " mm3";
+    return format_digits(a_mm3, 3) + " and " + format_digits(b_mm3, 3) + " mm3";
 }
 
 }  // namespace

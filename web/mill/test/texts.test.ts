@@ -8,7 +8,17 @@ import { file, PATIENCE_MS } from "../../testing/browser.js";
 import { hasMillPage, JOB, MillPage, PROGRAM } from "../../testing/mill_page.js";
 import { textsOfMillPage } from "../../testing/texts.js";
 import { TABLE } from "../src/texts/de.js";
-import { chooseUnit, feed, fixed, fromField, length, lengthWords, toField, volume } from "../src/texts/figures.js";
+import {
+  chooseUnit,
+  distance,
+  feed,
+  fixed,
+  fromField,
+  length,
+  lengthWords,
+  toField,
+  volume,
+} from "../src/texts/figures.js";
 import { languageOf, t } from "../src/texts/texts.js";
 
 describe("the table of texts", () => {
@@ -39,17 +49,21 @@ describe("a length", () => {
   it("is in inches what it is in millimetres, with one more decimal", () => {
     chooseUnit("in");
     // 25.4 mm by definition (ISO 31-1).
-    expect([length(25.4, 2), lengthWords(0.0508, 3), feed(1524)]).toEqual(["1.000", "0.0020 in", "60.0"]);
+    expect([length(25.4, 2), lengthWords(0.0508, 3), feed(1524)]).toEqual(["1.00", "0.0020 in", "60.0"]);
     // 1 in3 is 16.387064 cm3.
-    expect(volume(16387.064)).toBe("1.000");
+    expect(volume(16387.064)).toBe("1.00");
     chooseUnit("mm");
     expect([length(25.4, 2), lengthWords(0.0508, 3), feed(1524), volume(16387.064)]).toEqual([
-      "25.40",
+      "25.4",
       "0.051 mm",
       "1524",
-      "16.39",
+      "16.4",
     ]);
-    expect(fixed(1234.5, 1)).toBe("1234.5");
+    expect(distance(1234.567)).toBe("1234.57");
+  });
+  it("has no more than three digits where it was worked out", () => {
+    const said = [229.82, 1234.5, 9.996, 0.278, 0].map((value) => fixed(value, 2));
+    expect(said).toEqual(["230", "1230", "10.0", "0.28", "0.00"]);
   });
   it("is the same after it went through a field, in both units", () => {
     for (const unit of ["in", "mm"] as const) {

@@ -3,11 +3,11 @@
 export { clamp } from "@tribo/ui/clamp";
 export const largest = (list: number[]) => list.reduce((m, v) => Math.max(m, v), 0);
 
-/** Rounds to three significant digits, without exponents for numbers of usual size. */
-export function short(v: number): string {
+/** Rounds to significant digits, without exponents for numbers of usual size. */
+export function short(v: number, digits = 3): string {
   const size = Math.abs(v);
   if (size >= 1e6 || (size > 0 && size < 1e-3)) return v.toExponential(2);
-  return String(Number(v.toPrecision(size >= 1000 ? 4 : 3)));
+  return String(Number(v.toPrecision(digits)));
 }
 
 /** Returns round steps, so that four to nine ticks cover the range. */

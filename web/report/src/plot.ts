@@ -6,6 +6,9 @@ import { element } from "@tribo/ui/dom";
 import { css, line, type Context } from "./draw.js";
 import { clamp, short, ticks } from "./numbers.js";
 
+// Ticks are round numbers, but many of them may lie between others.
+const TICK_DIGITS = 6;
+
 type Range = [low: number, high: number];
 
 export interface PlotOptions {
@@ -104,13 +107,13 @@ export class Plot {
     c.textBaseline = "top";
     for (const v of ticks(...this.#range!.x, clamp(this.width / 90, 2, 9))) {
       line(c, this.x(v), top, this.x(v), bottom);
-      c.fillText(short(v), this.x(v), bottom + 5);
+      c.fillText(short(v, TICK_DIGITS), this.x(v), bottom + 5);
     }
     c.textAlign = "right";
     c.textBaseline = "middle";
     for (const v of ticks(...this.#range!.y, clamp(this.height / 44, 2, 8))) {
       line(c, left, this.y(v), right, this.y(v));
-      c.fillText(short(v), left - 7, this.y(v));
+      c.fillText(short(v, TICK_DIGITS), left - 7, this.y(v));
     }
     c.textBaseline = "bottom";
     c.fillText(this.#options.xLabel, right, bottom + 33);

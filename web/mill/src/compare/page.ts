@@ -104,8 +104,8 @@ const TOTALS: Total[] = [
   { name: word("collisions"), unit: "", value: ({ collisions }) => ({ value: collisions.length }) },
 ];
 
-const digits = (value: number, count = 4) => precise(value, count);
-const signed = (value: number, count: number) => `${value > 0 ? "+" : ""}${digits(value, count)}`;
+const digits = (value: number) => precise(value, 3);
+const signed = (value: number) => `${value > 0 ? "+" : ""}${digits(value)}`;
 const placed = (p: Vec3) => `${p.map((v) => digits(v)).join(language === "de" ? "; " : ", ")} mm`;
 
 function verdict({ a, b, extremes }: Compared): string {
@@ -113,7 +113,7 @@ function verdict({ a, b, extremes }: Compared): string {
     const [of, to] = [value(a.audit)?.value, value(b.audit)?.value];
     if (of === undefined || to === undefined || of === to) return [];
     const said = t("{what} {b} in place of {a} {unit}", { what: t(name), a: digits(of), b: digits(to), unit });
-    return [of > 0 ? `${said} (${signed((100 * (to - of)) / of, 3)} %)` : said];
+    return [of > 0 ? `${said} (${signed((100 * (to - of)) / of)} %)` : said];
   });
   const first = changes.length > 0 ? `B: ${changes.join(", ")}.` : t("Time, peak force and peak power do not differ.");
   const apart = Math.max(extremes.more?.mm ?? 0, -(extremes.less?.mm ?? 0));
@@ -121,7 +121,7 @@ function verdict({ a, b, extremes }: Compared): string {
     apart >= REACH_MM
       ? t("The parts are over {far} mm apart.", { far: digits(REACH_MM) })
       : apart > 0
-        ? t("The parts are up to {far} mm apart.", { far: digits(apart, 3) })
+        ? t("The parts are up to {far} mm apart.", { far: digits(apart) })
         : t("The parts are the same.");
   return `${first} ${parts}`;
 }
@@ -168,10 +168,10 @@ function totals({ a, b }: Compared): string {
     const [of, to] = [value(a.audit), value(b.audit)];
     if (!of && !to) return [];
     const cell = (v: typeof of) =>
-      v ? `${digits(v.value, 5)}${v.line ? ` (${t("line {line}", { line: v.line })})` : ""}` : t("not known");
+      v ? `${digits(v.value)}${v.line ? ` (${t("line {line}", { line: v.line })})` : ""}` : t("not known");
     const change = of && to ? to.value - of.value : 0;
-    const percent = of && of.value !== 0 && change !== 0 ? `${signed((100 * change) / Math.abs(of.value), 3)} %` : "";
-    return [[unit ? `${t(name)}, ${unit}` : t(name), cell(of), cell(to), of && to ? signed(change, 4) : "", percent]];
+    const percent = of && of.value !== 0 && change !== 0 ? `${signed((100 * change) / Math.abs(of.value))} %` : "";
+    return [[unit ? `${t(name)}, ${unit}` : t(name), cell(of), cell(to), of && to ? signed(change) : "", percent]];
   });
   return table(t("What changed"), ["", "A", "B", "B − A", ""], rows, "totals");
 }

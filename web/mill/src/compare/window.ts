@@ -33,7 +33,7 @@ function named({ order, changes }: Moment): Named {
   const said = changes.flatMap((change) => {
     if (change.key === "material" || !(change.key in NAMES)) return [];
     const name = t(NAMES[change.key as keyof typeof NAMES]);
-    return [`${name} ${precise(change.value, 4)} ${change.key === "helix_deg" ? "°" : "%"}`];
+    return [`${name} ${precise(change.value, 3)} ${change.key === "helix_deg" ? "°" : "%"}`];
   });
   return { name: jobNameOf(order), changes: said };
 }

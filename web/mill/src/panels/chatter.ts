@@ -6,7 +6,7 @@ import type { ChartFrame, StateFrame } from "@tribo/protocol/frames";
 import { fitToScreen } from "@tribo/ui/canvas";
 import { oncePerFrame } from "@tribo/ui/frame";
 import { element } from "@tribo/ui/dom";
-import { fixed, lengthUnit, onUnit, preciseLength, toField } from "../texts/figures.js";
+import { fixed, lengthUnit, onUnit, precise, preciseLength, toField } from "../texts/figures.js";
 import { t, word } from "../texts/texts.js";
 
 // As in stability.svg (src/report/chart): a vibration that grows by at most so much in a period.
@@ -117,7 +117,7 @@ export class ChatterPanel {
     if (!this.pocket) return;
     const { rpm, depth } = this.pocket;
     this.best.textContent = t("Turn at {rpm} rpm: stable to {depth}", {
-      rpm: fixed(rpm, 0),
+      rpm: precise(rpm, 5),
       depth: preciseLength(depth, 3),
     });
   }

@@ -3,7 +3,7 @@
 
 import { vec3, type Vec3 } from "@tribo/protocol/vec3";
 import { element } from "@tribo/ui/dom";
-import { length, lengthWords } from "../texts/figures.js";
+import { distance, lengthUnit } from "../texts/figures.js";
 import { t } from "../texts/texts.js";
 import type { Scene } from "../sight/scene.js";
 
@@ -35,7 +35,7 @@ export function listenToMeasure(scene: Scene): void {
       const [a, b] = places;
       if (!a || !b) return;
       const d = vec3((k) => b[k] - a[k]);
-      measured.textContent = `${lengthWords(Math.hypot(...d), 3)}   (x ${length(d[0], 3)}, y ${length(d[1], 3)}, z ${length(d[2], 3)})`;
+      measured.textContent = `${distance(Math.hypot(...d))} ${lengthUnit()}   (x ${distance(d[0])}, y ${distance(d[1])}, z ${distance(d[2])})`;
     },
     { capture: true },
   );

@@ -4,7 +4,7 @@
 import type { Row, StateFrame } from "@tribo/protocol/frames";
 import { AUDIT_COLUMNS, LOADS, type Load } from "@tribo/wasm/audit";
 import { element } from "@tribo/ui/dom";
-import { feed, feedUnit, fixed, length, lengthUnit, onUnit, volume, volumeUnit } from "../texts/figures.js";
+import { feed, feedUnit, fixed, length, lengthUnit, onUnit, precise, volume, volumeUnit } from "../texts/figures.js";
 import { t, word } from "../texts/texts.js";
 
 function write(id: string, value: string, unit = ""): void {
@@ -119,6 +119,6 @@ export class Now {
     write("line", String(state.line));
     write("force", fixed(Math.hypot(...state.force), 0), "N");
     write("torque", fixed(state.torque, 2), "Nm");
-    write("spindle", fixed(state.rpm, 0), t("rpm"));
+    write("spindle", precise(state.rpm, 5), t("rpm"));
   }
 }

@@ -9,7 +9,7 @@ import { overTime, type History } from "./history.js";
 import { theme } from "../page.js";
 import { heat } from "../sight/heat.js";
 import type { Sound } from "../sound/sound.js";
-import { lengthUnit, onUnit, toField } from "../texts/figures.js";
+import { lengthUnit, onUnit, precise, toField } from "../texts/figures.js";
 import { t, word } from "../texts/texts.js";
 import { spectrum, turn } from "./turn.js";
 
@@ -219,7 +219,7 @@ export class Plots {
             stroke: s.stroke,
             width: 1.5,
             points: { show: false },
-            value: (_: uPlot, v: number | null) => v?.toPrecision(4) ?? "",
+            value: (_: uPlot, v: number | null) => (typeof v === "number" ? precise(v, 3) : ""),
             // A row stands for its whole time.
             ...(view.seek ? { paths: uPlot.paths.stepped!({ align: 1 }) } : {}),
             ...(s.bars ? { paths: uPlot.paths.bars!({ size: [0.5, 24] }), fill: `${s.stroke}66` } : {}),

@@ -30,7 +30,7 @@ export function showLegend(colouring: Colouring, map: HeatMap, limits: ChipLimit
   const scale = colouring === "deviation" ? (share: number) => diverging(2 * share - 1) : heat;
   element("legend-bar").style.background =
     `linear-gradient(90deg, ${steps.map((share) => css(scale(share))).join(", ")})`;
-  const full = preciseLength(map.scale.deviation, 4);
+  const full = preciseLength(map.scale.deviation, 3);
   const ends: Record<Exclude<Colouring, "plain" | "chatter">, [string, string]> = {
     force: [t("peak force 0"), `${fixed(map.largestForce, 0)} N`],
     chip: [t("chip 0"), lengthWords(map.largestChip, 3)],
@@ -42,6 +42,6 @@ export function showLegend(colouring: Colouring, map: HeatMap, limits: ChipLimit
   element("legend-high").textContent = high;
   element("legend-marks").innerHTML =
     colouring === "chip" && limits
-      ? `<i style="background:#8c4dbf"></i>${t("rubs (below {length})", { length: preciseLength(limits.rubbing, 4) })}<i style="background:#d9331f"></i>${t("overload (above {percent} % of the diameter)", { percent: precise(100 * limits.overloadShare, 6) })}`
+      ? `<i style="background:#8c4dbf"></i>${t("rubs (below {length})", { length: preciseLength(limits.rubbing, 3) })}<i style="background:#d9331f"></i>${t("overload (above {percent} % of the diameter)", { percent: precise(100 * limits.overloadShare, 3) })}`
       : "";
 }

@@ -8,6 +8,8 @@ import { language } from "./texts.js";
 export type LengthUnit = "mm" | "in";
 
 const MM_PER_INCH = 25.4;
+// No force and no length of a cut is known better.
+const DIGITS = 3;
 const KEPT = "units";
 let chosen: LengthUnit = recall(KEPT) === "in" ? "in" : "mm";
 const listeners: (() => void)[] = [];
@@ -25,9 +27,11 @@ export const lengthUnit = (): LengthUnit => chosen;
 export const feedUnit = (): string => `${chosen}/min`;
 export const volumeUnit = (): string => (chosen === "in" ? "in³" : "cm³");
 
-/** With so many decimals, and the decimal sign of the language. */
+/** With so many decimals, but no more than three digits in all, and the decimal sign of the language. */
 export function fixed(value: number, decimals: number): string {
-  return local(value.toFixed(decimals));
+  const rounded = Number(value.toPrecision(DIGITS));
+  const whole = Math.floor(Math.log10(Math.abs(rounded))) + 1;
+  return local(rounded.toFixed(Math.min(decimals, Math.max(DIGITS - whole, 0))));
 }
 /** With so many digits in all. */
 export function precise(value: number, digits: number): string {
@@ -36,9 +40,14 @@ export function precise(value: number, digits: number): string {
 const local = (text: string) => (language === "de" ? text.replace(".", ",") : text);
 
 const inUnit = (mm: number) => (chosen === "in" ? mm / MM_PER_INCH : mm);
+const inDecimals = (decimals: number) => (chosen === "in" ? decimals + 1 : decimals);
 /** A length as a number, with the decimals that it has in millimetres: an inch takes one more. */
 export function length(mm: number, decimals: number): string {
-  return fixed(inUnit(mm), chosen === "in" ? decimals + 1 : decimals);
+  return fixed(inUnit(mm), inDecimals(decimals));
+}
+/** A length between places that the user chose, however long. */
+export function distance(mm: number): string {
+  return local(inUnit(mm).toFixed(inDecimals(2)));
 }
 /** A length with its unit. */
 export function lengthWords(mm: number, decimals: number): string {
@@ -48,9 +57,9 @@ export function lengthWords(mm: number, decimals: number): string {
 export function preciseLength(mm: number, digits: number): string {
   return `${precise(inUnit(mm), digits)} ${chosen}`;
 }
-/** A speed, mm/min. */
+/** A speed that the program sets, mm/min. */
 export function feed(mmPerMin: number): string {
-  return length(mmPerMin, 0);
+  return local(inUnit(mmPerMin).toFixed(inDecimals(0)));
 }
 /** A volume, mm3. */
 export function volume(mm3: number): string {
