@@ -25,7 +25,7 @@ std::uint64_t leading_number(std::string_view text) {
 }
 
 std::uint64_t number_in_file(const std::string& path) {
-    const FileResult<std::string> text = read_file(path, kSystemFileBytes);
+    const FileResult<std::string> text = first_bytes(path, kSystemFileBytes);
     return text ? leading_number(*text) : kNoLimit;
 }
 
@@ -41,7 +41,7 @@ std::uint64_t group_limit(const std::string& hierarchy, std::string group, const
 
 // Lines of /proc/self/cgroup: `0::/path` (version 2) or `N:controllers:/path` (version 1).
 std::uint64_t control_group_limit(const std::string& root) {
-    const FileResult<std::string> text = read_file(root + "/proc/self/cgroup", kSystemFileBytes);
+    const FileResult<std::string> text = first_bytes(root + "/proc/self/cgroup", kSystemFileBytes);
     if (!text) return kNoLimit;
     std::uint64_t limit = kNoLimit;
     std::string_view rest = *text;
@@ -64,7 +64,7 @@ std::uint64_t control_group_limit(const std::string& root) {
 }
 
 std::uint64_t machine_memory(const std::string& root) {
-    const FileResult<std::string> text = read_file(root + "/proc/meminfo", kSystemFileBytes);
+    const FileResult<std::string> text = first_bytes(root + "/proc/meminfo", kSystemFileBytes);
     const std::size_t at = text ? text->find("MemTotal:") : std::string::npos;
     if (at == std::string::npos) return kNoLimit;
     const std::uint64_t kilobytes = leading_number(std::string_view(*text).substr(at + 9));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <vector>
 
+#include "files/files.hpp"
 #include "files/scratch.hpp"
 
 namespace tribo::files {
@@ -30,6 +31,13 @@ TEST(AvailableMemory, is_the_least_limit_on_the_way_to_the_root_of_the_groups) {
     EXPECT_EQ(available_memory_bytes(root.path()), 5000000u);
     root.put("sys/fs/cgroup/memory.max", "4000000\n");
     EXPECT_EQ(available_memory_bytes(root.path()), 4000000u);
+}
+
+TEST(AvailableMemory, is_found_in_files_that_no_run_is_made_of) {
+    const Scratch root;
+    root.put("proc/meminfo", "MemTotal: 16384 kB\n");
+    EXPECT_EQ(available_memory_bytes(root.path()), 16384u * 1024);
+    EXPECT_FALSE(was_read(root.path() + "/proc/meminfo"));
 }
 
 TEST(AvailableMemory, obeys_groups_of_version_one) {
