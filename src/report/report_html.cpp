@@ -192,7 +192,7 @@ aria-label="The part as milled" aria-describedby="part-hint"></canvas></div>
            data.part->deviation_from + R"(</label>
 </div>
 <div class="scale" hidden><i></i><span></span><span></span><span></span></div>
-<figcaption class="live" id="part-hint" hidden>Blue: machined. Grey: untouched stock. Yellow: the tool's tip at the row below. Drag
+<figcaption class="live" id="part-hint" hidden>Bright: machined. Dull: untouched stock. Yellow: the tool's tip at the row below. Drag
 or arrow keys turn it, two fingers or shift move it, + and - or the wheel after a click come nearer, Home or a double click
 shows all again.</figcaption>
 </figure>)";

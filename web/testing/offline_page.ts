@@ -16,7 +16,7 @@ export function watch(page: Page): { asked: string[]; problems: string[] } {
 export function coloursOf(page: Page, canvas: string) {
   return page.evaluate(async (selector) => {
     await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
-    const seen = { drawn: 0, blue: 0, grey: 0, orange: 0, purple: 0, yellow: 0, sum: 0 };
+    const seen = { drawn: 0, bright: 0, dull: 0, orange: 0, purple: 0, yellow: 0, sum: 0 };
     const view = document.querySelector<HTMLCanvasElement>(selector);
     const flat = document.createElement("canvas");
     flat.width = view?.width ?? 0;
@@ -30,8 +30,7 @@ export function coloursOf(page: Page, canvas: string) {
       if (a === 0) continue;
       ++seen.drawn;
       seen.sum = (31 * seen.sum + r + 3 * g + 7 * b + n) % 1_000_000_007;
-      if (b > 1.3 * r && b > 1.1 * g) ++seen.blue;
-      if (Math.abs(r - g) < 12 && Math.abs(b - g) < 16) ++seen.grey;
+      if (Math.abs(r - g) < 12 && Math.abs(b - g) < 16) ++seen[g > 160 ? "bright" : "dull"];
       if (r > 1.4 * b && r > 1.2 * g) ++seen.orange;
       if (b > 1.15 * g && r > 1.03 * g) ++seen.purple;
       if (r > 200 && g > 150 && b < 60) ++seen.yellow;

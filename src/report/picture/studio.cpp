@@ -137,7 +137,7 @@ Studio::Gloss::Gloss(float rough, float metal)
     }
 }
 
-// As in web/mill/src/sight/metal.ts.
+// As in web/ui/src/studio.ts.
 Studio::Studio() : glosses_{Gloss(0.3F, 1), Gloss(0.62F, 0.4F), Gloss(0.55F, 0)}, matte_(1) {}
 
 Vec3 Studio::to_sun() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The light on the bench: a small studio of bright panels that metal reflects, and one sun. The panels are
-// those of the pages (web/mill/src/sight/light.ts). Their ground is darker and their sun is farther back, for
+// those of the pages (web/ui/src/studio.ts). Their ground is darker and their sun is farther back, for
 // the view of the pages turns; a still picture shows its walls from one side only. z is up.
 #pragma once
 

@@ -3,18 +3,13 @@
 
 import type { Vec3 } from "@tribo/protocol/vec3";
 import { clamp, vec3 } from "./shared.js";
+import { cross, dot } from "./vectors.js";
 
 const HALF_VIEW = Math.tan((0.5 * 27 * Math.PI) / 180);
 // Start direction around the part.
 const ROOM = 1.06;
 
 const add = (a: Vec3, b: Vec3, s = 1): Vec3 => vec3((k) => a[k] + s * b[k]);
-const dot = (a: Vec3, b: Vec3) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a: Vec3, b: Vec3): Vec3 => [
-  a[1] * b[2] - a[2] * b[1],
-  a[2] * b[0] - a[0] * b[2],
-  a[0] * b[1] - a[1] * b[0],
-];
 
 interface Eye {
   /** About z, and above the horizontal plane, rad. */
@@ -52,6 +47,10 @@ export class Camera {
   turnBy(dx: number, dy: number): void {
     this.#eye.turn -= dx;
     this.#eye.rise = clamp(this.#eye.rise + dy, -1.55, 1.55);
+  }
+  /** Direction of the eye about z, rad. */
+  get turn(): number {
+    return this.#eye.turn;
   }
   nearer(factor: number): void {
     this.#eye.near = clamp(this.#eye.near * factor, 0.3, 60);

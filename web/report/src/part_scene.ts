@@ -4,14 +4,19 @@
 import type { Vec3 } from "@tribo/protocol/vec3";
 import type { Part } from "./data.js";
 import { Camera } from "./part_camera.js";
+import { FRAGMENT } from "./part_finish.js";
 import { listenToHands } from "./part_hands.js";
-import { kMarkFragment, kMarkVertex, kPartFragment, kPartVertex } from "./part_shader.js";
+import { room, ROOM_SIDE } from "./part_room.js";
+import { kMarkFragment, kMarkVertex, kPartVertex } from "./part_shader.js";
 import { element, fitToScreen, vec3 } from "./shared.js";
+import { USUAL_VIEW } from "@tribo/ui/studio";
 
 const MOST_PIXEL_RATIO = 2;
 const MARK_PX = 13;
 // More vertices need longer indices.
 const MOST_SHORT = 65_536;
+
+const USUAL_TURN = Math.atan2(USUAL_VIEW[1], USUAL_VIEW[0]);
 
 type Uniform = (name: string) => WebGLUniformLocation | null;
 
@@ -62,6 +67,13 @@ function load(gl: WebGL2RenderingContext, program: WebGLProgram, part: Part, byt
   return vec3((k) => corners.reduce((m, v, i) => (i % 3 === k ? Math.max(m, v) : m), 0));
 }
 
+function loadRoom(gl: WebGL2RenderingContext): void {
+  gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA16F, ROOM_SIDE, ROOM_SIDE, 0, gl.RGBA, gl.FLOAT, room());
+  for (const of of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, of, gl.LINEAR);
+  for (const of of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, of, gl.CLAMP_TO_EDGE);
+}
+
 export interface SceneOptions {
   part: Part;
   bytes: Uint8Array;
@@ -86,12 +98,13 @@ export function partScene(canvas: HTMLCanvasElement, options: SceneOptions): Sce
   const { part } = options;
   const gl = canvas.getContext("webgl2", { antialias: true, premultipliedAlpha: true, preserveDrawingBuffer: true });
   if (!gl) return undefined;
-  const program = link(gl, kPartVertex, kPartFragment);
+  const program = link(gl, kPartVertex, FRAGMENT);
   const mark = link(gl, kMarkVertex, kMarkFragment);
   if (!program || !mark) return undefined;
   const ofPart: Uniform = (name) => gl.getUniformLocation(program, name);
   const ofMark: Uniform = (name) => gl.getUniformLocation(mark, name);
 
+  loadRoom(gl);
   const top = load(gl, program, part, options.bytes);
   const half = vec3((k) => 0.5 * part.step * top[k]);
   const centre = vec3((k) => part.origin[k] + half[k]);
@@ -115,6 +128,7 @@ export function partScene(canvas: HTMLCanvasElement, options: SceneOptions): Sce
     gl.uniform3fv(ofPart("origin"), part.origin);
     gl.uniform3f(ofPart("scales"), part.step, part.deviation_step ?? 0, part.deviation_range ?? 1);
     gl.uniform3fv(ofPart("eye"), from);
+    gl.uniform2f(ofPart("turn"), Math.cos(camera.turn - USUAL_TURN), Math.sin(camera.turn - USUAL_TURN));
     gl.uniform1i(ofPart("deviations"), Number(byDeviation));
     gl.drawElements(gl.TRIANGLES, 3 * part.triangles, indexType, 0);
     const tip = options.tip();

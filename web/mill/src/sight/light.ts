@@ -22,41 +22,26 @@ import {
   type WebGLRenderer,
 } from "three";
 
+import { PANEL_DISTANCE, PANELS, SUN, wallAt } from "@tribo/ui/studio";
+
 const SHADOW_PIXELS = 2048;
-// Direction to the sun.
-const SUN = new Vector3(-0.6, 0.45, 1).normalize();
+const TO_SUN = new Vector3(...SUN.towards).normalize();
 
-// Panels of the studio: direction, width, height, brightness. Narrow ones with dark gaps make shallow grooves visible.
-const PANELS: [Vector3, number, number, number][] = [
-  [new Vector3(-0.75, 0.5, 0.9), 1.6, 0.9, 6],
-  [new Vector3(0.15, 1, 0.95), 3, 0.28, 2.6],
-  [new Vector3(0.1, 1, 0.42), 3.6, 0.3, 2.6],
-  [new Vector3(0.95, 0.3, 0.6), 0.5, 2.2, 4],
-  [new Vector3(-1, -0.4, 0.3), 0.6, 1.6, 3],
-  [new Vector3(0.7, -1, 0.5), 0.8, 0.8, 3],
-];
-const DISTANCE = 3;
-// Brightness from below to above.
-const FLOOR = 0.3;
-const HORIZON = 0.62;
-const ZENITH = 0.24;
-
-// What metal reflects. z is up, as in the stock.
+// What metal reflects.
 function studio(renderer: WebGLRenderer): Texture {
   const room = new Scene();
   const sphere = new SphereGeometry(10, 24, 24).rotateX(Math.PI / 2);
   const place = sphere.getAttribute("position");
   const shade = new Float32Array(3 * place.count);
   for (let n = 0; n < place.count; ++n) {
-    const up = place.getZ(n) / 10;
-    shade.fill(up < 0 ? HORIZON + up * (HORIZON - FLOOR) : HORIZON + up * (ZENITH - HORIZON), 3 * n, 3 * n + 3);
+    shade.fill(wallAt(place.getZ(n) / 10), 3 * n, 3 * n + 3);
   }
   sphere.setAttribute("color", new BufferAttribute(shade, 3));
   room.add(new Mesh(sphere, new MeshBasicMaterial({ side: BackSide, vertexColors: true })));
-  for (const [towards, width, height, brightness] of PANELS) {
+  for (const { towards, width, height, brightness } of PANELS) {
     const panel = new Mesh(new PlaneGeometry(width, height), new MeshBasicMaterial());
     panel.material.color.setScalar(brightness);
-    panel.position.copy(towards).setLength(DISTANCE);
+    panel.position.set(...towards).setLength(PANEL_DISTANCE);
     panel.up.set(0, 0, 1);
     panel.lookAt(0, 0, 0);
     room.add(panel);
@@ -77,7 +62,7 @@ export class Light {
   readonly group = new Group();
   private readonly sky = new HemisphereLight(0xffffff, 0x8f98a6, 2.3);
   private readonly headlight = new DirectionalLight(0xffffff, 2.7);
-  private readonly sun = new DirectionalLight(0xfff8ee, 1.9);
+  private readonly sun = new DirectionalLight(SUN.colour, SUN.strength);
   private readonly ground = new Mesh(new PlaneGeometry(1, 1), new ShadowMaterial({ opacity: 0.3 }));
   private reflections: Texture | undefined;
 
@@ -128,7 +113,7 @@ export class Light {
     const size = box.getSize(new Vector3()).length();
     const reach = 0.5 * size + 0.5 * above;
     this.sun.target.position.copy(centre);
-    this.sun.position.copy(centre).addScaledVector(SUN, 4 * size);
+    this.sun.position.copy(centre).addScaledVector(TO_SUN, 4 * size);
     const { camera } = this.sun.shadow;
     camera.left = camera.bottom = -reach;
     camera.right = camera.top = reach;

@@ -4,6 +4,8 @@
 
 import { Color, MeshStandardMaterial } from "three";
 
+import { SAW_MARKS } from "@tribo/ui/saw_marks";
+import { MACHINED, MARKS, PAINT, SAWN } from "@tribo/ui/studio";
 import type { ContactUniforms } from "./contact.js";
 import type { Palette } from "./palette.js";
 
@@ -30,18 +32,7 @@ uniform vec2 contactSize;
 uniform vec2 contactRange;
 uniform sampler2D contactDepth;
 uniform mat4 projectionMatrix;
-
-float noiseOf(float s) {
-  float n = floor(s), f = s - n;
-  vec2 h = fract(sin(vec2(n, n + 1.0) * 12.9898) * 43758.5453);
-  return mix(h.x, h.y, f * f * (3.0 - 2.0 * f)) - 0.5;
-}
-// Marks of a saw, fading where they are finer than a pixel.
-float sawMarks(vec3 p) {
-  float s = dot(p, vec3(0.12, 0.83, 0.55)) + 0.15 * sin(0.21 * p.x);
-  float fine = clamp(1.0 - 1.2 * fwidth(s) * 3.0, 0.0, 1.0), broad = clamp(1.0 - 1.2 * fwidth(s) * 0.7, 0.0, 1.0);
-  return 0.65 * broad * noiseOf(0.7 * s) + 0.5 * fine * noiseOf(3.0 * s);
-}
+${SAW_MARKS}
 #ifdef CONTACT
 vec3 placeAt(vec2 pixel) {
   vec2 at = pixel / contactSize;
@@ -74,12 +65,12 @@ const COLOUR = /* glsl */ `
   bool untouched = vBlank > 0.999;
   float data = untouched ? 0.0 : step(0.02, vTint.a);
   float marks = untouched ? sawMarks(vPlace) : 0.0;
-  if (untouched) diffuseColor.rgb = sawnColour * (1.0 + 0.16 * marks);
+  if (untouched) diffuseColor.rgb = sawnColour * (1.0 + ${MARKS} * marks);
   if (data > 0.0) diffuseColor.rgb = pow(vTint.rgb / vTint.a, vec3(2.2));`;
 const ROUGHNESS = /* glsl */ `
-  roughnessFactor = mix(untouched ? 0.62 + 0.2 * marks : roughness, 0.55, max(data, 1.0 - shine));`;
+  roughnessFactor = mix(untouched ? ${SAWN.roughness} + 0.2 * marks : roughness, ${PAINT.roughness}, max(data, 1.0 - shine));`;
 const METALNESS = /* glsl */ `
-  metalnessFactor = mix(untouched ? 0.4 : 1.0, 0.0, data) * shine + 0.12 * (1.0 - shine);`;
+  metalnessFactor = mix(untouched ? ${SAWN.metalness} : metalness, 0.0, data) * shine + 0.12 * (1.0 - shine);`;
 const CONTACT = /* glsl */ `
 #ifdef CONTACT
   if (contactOn > 0.0) outgoingLight *= openness(-vViewPosition, normal);
@@ -92,7 +83,7 @@ export class PartMaterial extends MeshStandardMaterial {
   private fine = false;
 
   constructor(palette: Palette, contact: ContactUniforms) {
-    super({ flatShading: true, metalness: 1, roughness: 0.3 });
+    super({ flatShading: true, metalness: MACHINED.metalness, roughness: MACHINED.roughness });
     this.palette = palette;
     this.choose();
     this.onBeforeCompile = (shader) => {

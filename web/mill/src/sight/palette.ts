@@ -2,6 +2,8 @@
 // Colours of the scene: two metals, those of the milling paper, and a set for colour-blind users (after Okabe and Ito
 // 2008).
 
+import { MACHINED, SAWN } from "@tribo/ui/studio";
+
 export interface Palette {
   // Machined and untouched shine as metal.
   metal: boolean;
@@ -16,8 +18,8 @@ export interface Palette {
 export const PALETTES = {
   metal: {
     metal: true,
-    machined: 0xcfd2d5,
-    untouched: 0x85898f,
+    machined: MACHINED.colour,
+    untouched: SAWN.colour,
     designed: 0xf08ab4,
     cutter: 0xb4b7bc,
     finger: 0xd83a30,

@@ -26,6 +26,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "@tribo/protocol/frames";
 import { vec3 } from "@tribo/protocol/vec3";
+import { USUAL_VIEW } from "@tribo/ui/studio";
 import type { View } from "../keep/moment.js";
 import { t } from "../texts/texts.js";
 import type { Triangles } from "../keep/triangles.js";
@@ -42,8 +43,7 @@ import { Pass, type PassShown } from "./pass.js";
 import { Tool } from "./tool.js";
 
 const PIXEL_RATIO_CAP = 2;
-// From the front right, a little from above.
-const VIEW = new Vector3(0.42, -0.95, 0.62).normalize();
+const VIEW = new Vector3(...USUAL_VIEW).normalize();
 // Share of the free window that the part fills, and with nothing beside it.
 const FILLED = 0.86;
 const FILLED_ALONE = 0.96;
