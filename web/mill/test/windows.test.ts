@@ -72,6 +72,15 @@ describe.runIf(hasMillPage)("the bench in other windows", () => {
   );
 
   it(
+    "shows all of a tilted tool on a phone after the last cut",
+    async () => {
+      const { y, height } = await box("stage");
+      for (const x of [0, PHONE.width - BORDER]) await expect.poll(dark({ x, y, width: BORDER, height }), LONG).toBe(0);
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "keeps the part above a sheet that is open",
     async () => {
       for (const [button, sheet] of [

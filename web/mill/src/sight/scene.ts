@@ -49,6 +49,8 @@ const FILLED = 0.86;
 const FILLED_ALONE = 0.96;
 // Turns of a part that together cover what it fills while it turns.
 const TURNS = 16;
+// A state has the time of a stand, but for rounding.
+const SAME_TIME_S = 1e-3;
 // Room for the tool: above the part by this share of its size, and where it stands no farther from the part.
 const TOOL_ROOM = 0.25;
 
@@ -122,8 +124,8 @@ export class Scene {
   private free: (() => Free) | undefined;
   // The camera stands where fit() put it.
   private fitted = false;
-  // Where the tool stands before the first move and after the last.
-  private stands: Vector3[] = [];
+  // Where the tool stands before the first move and after the last. `tool`: all of it, once it has been seen there.
+  private stands: { time: number; tip: Vector3; tool?: Box3 }[] = [];
 
   constructor(
     readonly canvas: HTMLCanvasElement,
@@ -184,8 +186,9 @@ export class Scene {
 
   addPath(frame: PathFrame): void {
     this.pass.takePath(frame);
-    const { points } = frame;
-    this.stands = points.length > 0 ? [0, points.length - 3].map((at) => new Vector3().fromArray(points, at)) : [];
+    const { points, times } = frame;
+    const ends = times.length > 0 ? [0, times.length - 1] : [];
+    this.stands = ends.map((n) => ({ time: times[n]!, tip: new Vector3().fromArray(points, 3 * n) }));
     if (this.fitted) this.fit();
     this.draw();
   }
@@ -228,6 +231,11 @@ export class Scene {
     // The state frame follows the frames of the part.
     this.part.arrived();
     this.tool.show(state);
+    const stand = this.stands.find(({ time }) => Math.abs(time - state.time) < SAME_TIME_S);
+    if (stand && !stand.tool) {
+      stand.tool = this.tool.box();
+      if (this.fitted) this.fit();
+    }
     this.pass.show(state.time, this.heatMap, this.colouring);
     this.overlays.showForce(state);
     this.moved();
@@ -345,12 +353,16 @@ export class Scene {
     box.max.z += TOOL_ROOM * this.extent();
     const points = cornersOf(box);
     const radius = Math.max(...this.job!.cutters.map((cutter) => cutter.radius), 0);
-    for (const { x, y, z } of this.stands.filter((tip) => box.distanceToPoint(tip) < TOOL_ROOM * this.extent())) {
+    const { width, height } = this.freeNow();
+    for (const { tip, tool } of this.stands) {
+      if (box.distanceToPoint(tip) >= TOOL_ROOM * this.extent()) continue;
       const cutter = new Box3().setFromCenterAndSize(
-        new Vector3(x, y, z + radius),
+        tip.clone().setZ(tip.z + radius),
         new Vector3().setScalar(2 * radius),
       );
       points.push(...cornersOf(cutter));
+      // A high window has room for the holder.
+      if (tool && height > width) points.push(...cornersOf(tool));
     }
     return this.poseOf(points, VIEW, FILLED);
   }
@@ -370,9 +382,13 @@ export class Scene {
     );
     return this.poseOf(points, towards, FILLED_ALONE);
   }
+  private freeNow(): Free {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    return this.free?.() ?? { x: 0, y: 0, width, height };
+  }
   private poseOf(points: Vector3[], towards: Vector3, filled: number): Pose {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const free = this.free?.() ?? { x: 0, y: 0, width, height };
+    const free = this.freeNow();
     centre(this.camera, width, height, free);
     const share = { width: (filled * free.width) / width, height: (filled * free.height) / height };
     const middle = this.blank().getCenter(new Vector3());

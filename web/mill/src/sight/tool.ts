@@ -2,6 +2,7 @@
 // The tool with its flutes and its holder, and its latest positions (figure 2 of the milling paper).
 
 import {
+  Box3,
   type BufferGeometry,
   Color,
   Group,
@@ -180,6 +181,15 @@ export class Tool {
       }
     }
     this.choose();
+  }
+
+  /** All of the tool where it stands, in the frame of the part. */
+  box(): Box3 {
+    const tool = this.tools[this.shown];
+    if (!tool) return new Box3();
+    tool.group.updateMatrixWorld();
+    const box = new Box3().setFromObject(tool.group);
+    return box.applyMatrix4(this.group.matrixWorld.clone().invert());
   }
 
   private draw(cutter: Cutter): Drawn {
