@@ -184,7 +184,8 @@ function replay(file: JobFile): void {
 }
 
 async function open(files: { name: string; file: File }[]): Promise<void> {
-  const large = drop.tooLarge(files.map(({ name, file }) => ({ name, size: file.size })));
+  const sizes = files.map(({ name, file }) => ({ name, size: file.size }));
+  const large = drop.tooLarge(sizes, engine !== undefined);
   if (large) return say(large);
   const wanted = drop.sort(await drop.read(files), order);
   if ("refused" in wanted) say(wanted.refused);

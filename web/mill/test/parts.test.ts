@@ -327,6 +327,11 @@ describe("a drop", () => {
     expect(sort([file("s.stl")], undefined)).toMatchObject({
       refused: expect.stringContaining("together with a program"),
     });
-    expect(tooLarge([{ name: "big.nc", size: 100e6 }])).toContain("big.nc: 100 MB");
+    const large = [{ name: "big.nc", size: 100e6 }];
+    expect(tooLarge(large, false)).toMatch(/^big.nc: 100 MB are .*try: tribo render, or tribo live/);
+    expect(tooLarge(large, true)).toMatch(
+      /^big.nc: 100 MB are .*start the engine anew with this file: tribo live big.nc$/,
+    );
+    expect(tooLarge([{ name: "small.nc", size: 1e6 }], true)).toBe("");
   });
 });

@@ -110,14 +110,20 @@ export function sort(files: JobFile[], before: Order | undefined): Wanted {
   return { order: { files, job: (rest[0] ?? first).name, part: "", cell } };
 }
 
-export function tooLarge(files: { name: string; size: number }[]): string {
+/** Why a file cannot be dropped, or nothing. `besideEngine`: the page is that of a running engine. */
+export function tooLarge(files: { name: string; size: number }[], besideEngine: boolean): string {
   const large = files.find((f) => f.size > LARGEST_FILE);
   if (!large) return "";
-  return t("{name}: {size} are more than a page can hold ({most}); try: tribo render, or tribo live, which take it", {
-    name: large.name,
-    size: megabytes(large.size),
-    most: megabytes(LARGEST_FILE),
-  });
+  const facts = { name: large.name, size: megabytes(large.size), most: megabytes(LARGEST_FILE) };
+  return besideEngine
+    ? t(
+        "{name}: {size} are more than a page can hold ({most}); start the engine anew with this file: tribo live {name}",
+        facts,
+      )
+    : t(
+        "{name}: {size} are more than a page can hold ({most}); try: tribo render, or tribo live, which take it",
+        facts,
+      );
 }
 
 export async function read(files: { name: string; file: File }[]): Promise<JobFile[]> {

@@ -234,6 +234,8 @@ export const TABLE: Table = {
     "ein Modell allein hat keinen Werkzeugweg: legen Sie es zusammen mit einem Programm ab",
   "{name}: {size} are more than a page can hold ({most}); try: tribo render, or tribo live, which take it":
     "{name}: {size} sind mehr, als eine Seite fasst ({most}); tribo render und tribo live nehmen sie",
+  "{name}: {size} are more than a page can hold ({most}); start the engine anew with this file: tribo live {name}":
+    "{name}: {size} sind mehr, als eine Seite fasst ({most}); den Rechenkern mit dieser Datei neu starten: tribo live {name}",
   "the example {name} is not here ({status})": "das Beispiel {name} fehlt hier ({status})",
   Pause: "Pause",
   Play: "Abspielen",
