@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // npm run pictures [JOB ...]: renders the examples by `tribo` and keeps a small picture of each finished part in pictures/ (of all, or
-// of these jobs). Chromium makes it small.
+// of these jobs). Chromium makes it small. Beside the part and its shadow it is clear: the page gives the ground.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -20,7 +20,7 @@ for (const example of EXAMPLES) {
   execFileSync(PROGRAM, ["render", job, "--out", join(folder, example.job), "--only", "report"], { stdio: "ignore" });
   const report = readFileSync(join(folder, example.job, "report.html"), "utf8");
   const png = /src="(data:image\/png;base64,[^"]*)"/.exec(report)![1]!;
-  const jpeg = await page.evaluate(
+  const webp = await page.evaluate(
     async ([source, wide, high, quality]) => {
       const picture = new Image();
       picture.src = source;
@@ -29,17 +29,15 @@ for (const example of EXAMPLES) {
       small.width = wide;
       small.height = high;
       const c = small.getContext("2d")!;
-      c.fillStyle = "#e9ebee";
-      c.fillRect(0, 0, wide, high);
       c.imageSmoothingQuality = "high";
       const scale = Math.min(wide / picture.width, high / picture.height);
       const [w, h] = [scale * picture.width, scale * picture.height];
       c.drawImage(picture, (wide - w) / 2, (high - h) / 2, w, h);
-      return small.toDataURL("image/jpeg", quality).split(",")[1]!;
+      return small.toDataURL("image/webp", quality).split(",")[1]!;
     },
     [png, WIDE, HIGH, QUALITY] as const,
   );
-  const bytes = Buffer.from(jpeg, "base64");
+  const bytes = Buffer.from(webp, "base64");
   writeFileSync(join(import.meta.dirname, "pictures", pictureOf(example)), bytes);
   console.log(`${pictureOf(example)} ${bytes.length}`);
 }

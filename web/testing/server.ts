@@ -15,6 +15,7 @@ const TYPES: Record<string, string> = {
   ".wasm": "application/wasm",
   ".png": "image/png",
   ".jpg": "image/jpeg",
+  ".webp": "image/webp",
 };
 
 export interface Server {

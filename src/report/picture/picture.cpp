@@ -20,8 +20,7 @@ namespace {
 constexpr int kSamples = 2;            // per pixel along each side
 constexpr double kTanHalfView = 0.24;  // a portrait lens: 27 degrees, little distortion
 constexpr double kLineLift = 2e-3;     // share of the distance by which lines are in front of the surface
-// Of sawn metal, as in web/ui/src/studio.ts; marks make it that much lighter and
-// darker.
+// Of sawn metal, as in web/ui/src/studio.ts; marks make it that much lighter and darker.
 constexpr Colour kSawn{0.522F, 0.537F, 0.561F};
 constexpr float kMarks = 0.16F;
 

@@ -498,7 +498,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
       mill.watch(visitor);
       const pictures: number[] = [];
       visitor.on("response", async (response) => {
-        if (response.url().endsWith(".jpg")) pictures.push((await response.body()).length);
+        if (response.url().endsWith(".webp")) pictures.push((await response.body()).length);
       });
       await visitor.goto(`${server.root}/mill/`);
       await visitor.waitForSelector("#examples:not([hidden])", { timeout: PATIENCE_MS });

@@ -102,6 +102,6 @@ export const EXAMPLES: Example[] = [
 /** Where the page finds a file of an example. The engine's server has no folders. */
 export const besideAs = (file: string) => `example-${file}`;
 /** The picture of an example, WIDE by HIGH pixels. */
-export const pictureOf = ({ job }: Pick<Example, "job">) => job.replace(/\.toml$/, ".jpg");
+export const pictureOf = ({ job }: Pick<Example, "job">) => job.replace(/\.toml$/, ".webp");
 export const WIDE = 320;
 export const HIGH = 200;
