@@ -53,6 +53,8 @@ const TURNS = 16;
 const SAME_TIME_S = 1e-3;
 // Room for the tool: above the part by this share of its size, and where it stands no farther from the part.
 const TOOL_ROOM = 0.25;
+// All of a tool is kept in sight up to this distance, in distances at which its cutter is seen.
+const MOST_AWAY = 1.4;
 
 /** The camera looks at `target` from the direction `towards` (unit) at a distance, mm. */
 export interface Pose {
@@ -353,7 +355,7 @@ export class Scene {
     box.max.z += TOOL_ROOM * this.extent();
     const points = cornersOf(box);
     const radius = Math.max(...this.job!.cutters.map((cutter) => cutter.radius), 0);
-    const { width, height } = this.freeNow();
+    const tools: Vector3[] = [];
     for (const { tip, tool } of this.stands) {
       if (box.distanceToPoint(tip) >= TOOL_ROOM * this.extent()) continue;
       const cutter = new Box3().setFromCenterAndSize(
@@ -361,10 +363,11 @@ export class Scene {
         new Vector3().setScalar(2 * radius),
       );
       points.push(...cornersOf(cutter));
-      // A high window has room for the holder.
-      if (tool && height > width) points.push(...cornersOf(tool));
+      if (tool) tools.push(...cornersOf(tool));
     }
-    return this.poseOf(points, VIEW, FILLED);
+    const withCutter = this.poseOf(points, VIEW, FILLED);
+    const withHolder = this.poseOf([...points, ...tools], VIEW, FILLED);
+    return withHolder.distance < MOST_AWAY * withCutter.distance ? withHolder : withCutter;
   }
   /** The part alone from any side: nothing of it leaves the picture while it turns. */
   partPose(towards: Vector3): Pose {
@@ -382,13 +385,9 @@ export class Scene {
     );
     return this.poseOf(points, towards, FILLED_ALONE);
   }
-  private freeNow(): Free {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    return this.free?.() ?? { x: 0, y: 0, width, height };
-  }
   private poseOf(points: Vector3[], towards: Vector3, filled: number): Pose {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const free = this.freeNow();
+    const free = this.free?.() ?? { x: 0, y: 0, width, height };
     centre(this.camera, width, height, free);
     const share = { width: (filled * free.width) / width, height: (filled * free.height) / height };
     const middle = this.blank().getCenter(new Vector3());
