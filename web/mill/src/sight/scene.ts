@@ -363,7 +363,8 @@ export class Scene {
         new Vector3().setScalar(2 * radius),
       );
       points.push(...cornersOf(cutter));
-      if (tool) tools.push(...cornersOf(tool));
+      // A high window has room for the holder.
+      if (tool && this.camera.aspect < 1) tools.push(...cornersOf(tool));
     }
     const withCutter = this.poseOf(points, VIEW, FILLED);
     const withHolder = this.poseOf([...points, ...tools], VIEW, FILLED);
