@@ -212,7 +212,7 @@ describe.runIf(hasMillPage)("a first visit", () => {
       const { context, page } = await visit();
       await page.waitForSelector("#hear-it", { timeout: PATIENCE_MS });
       // Milled to its end, without a panel and with nothing else to press.
-      await page.waitForFunction(() => document.getElementById("removed")!.textContent === "54.23 cm³", null, {
+      await page.waitForFunction(() => document.getElementById("removed")!.textContent === "54.2 cm³", null, {
         timeout: PATIENCE_MS,
       });
       for (const id of ["begin", "cards", "play", "examples"]) expect(await page.isVisible(`#${id}`)).toBe(false);
