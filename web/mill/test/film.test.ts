@@ -225,7 +225,9 @@ describe.runIf(hasMillPage)("a first visit", () => {
       expect(await page.getAttribute("#sound", "aria-pressed")).toBe("true");
       await page.waitForSelector("body:not([data-film])", { timeout: 2 * PATIENCE_MS });
       expect(await page.inputValue("#colouring")).toBe("force");
-      expect(await page.textContent("#hint")).toBe("Rub it, or drop a job of your own here");
+      expect(await page.textContent("#hint")).toBe(
+        "Hold a press on the part to feel it, or drop a job of your own here",
+      );
       const glows = page.locator("#program-drawn .glows");
       expect(await page.textContent("#verdict-places li:first-child")).toContain(
         `line ${await glows.getAttribute("data-line")}:`,
