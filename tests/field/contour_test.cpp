@@ -171,7 +171,7 @@ TEST(Contour, that_is_rough_leaves_the_faces_of_the_blank_flat_up_to_their_edges
         }
         return area_mm2(faces);
     };
-    EXPECT_NEAR(area_on_blank(contour(field, serial_for, options)) / area_on_blank(contour(field)), 1, 6e-3);
+    EXPECT_NEAR(area_on_blank(contour(field, serial_for, options)) / area_on_blank(contour(field)), 1, 5e-3);
 }
 
 TEST(Contour, keeps_corners_sharp) {

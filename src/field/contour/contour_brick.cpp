@@ -237,8 +237,14 @@ class BrickContour {
         // Planes through the crossings miss a curved surface by their sagitta. Newton steps remove this
         // error: onto the surface where it is smooth, onto the intersection of its faces where it is not.
         constexpr double kSmooth = 0.1;  // rad
-        if (options_.rough)
-            return quadric.is_flat(kSmooth) ? into(cell, quadric.mean()) : quadric.solve_in(cell);
+        if (options_.rough) {
+            if (quadric.is_flat(kSmooth)) return into(cell, quadric.mean());
+            const bool at_blank =
+                std::any_of(around.begin(), around.begin() + static_cast<std::ptrdiff_t>(count),
+                            [](const Crossing* c) { return c->shape == 0; });
+            const Vec3 p = quadric.solve_in(cell);
+            return at_blank ? into(cell, onto_blank(p)) : p;
+        }
         if (quadric.is_flat(kSmooth)) {
             const Vec3 p = into(cell, quadric.mean());
             const CarvedField::Exact e = field_.exact(nodes_.ref(), p);
@@ -256,6 +262,13 @@ class BrickContour {
             p = planes.solve_in(cell);
         }
         return onto_surface(planes, p, cell);
+    }
+
+    // The faces of the blank are flat up to their edges, however rough the rest is.
+    Vec3 onto_blank(Vec3 p) const {
+        const Shape::Slope s = field_.blank().slope(p);
+        constexpr double kNear = 0.1;  // cells
+        return std::abs(s.distance_mm) < kNear * field_.cell_mm() ? p - s.distance_mm * s.gradient : p;
     }
 
     // The planes miss the surface where a face takes part that crosses no edge of the cell, and at cusps of
