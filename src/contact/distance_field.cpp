@@ -21,9 +21,9 @@ constexpr double kAlike = 0.5;
 constexpr double kBendStep = 1e-3, kTooBent = 1.01;
 // A side that is this share of a way behind does not come near over the way.
 constexpr double kBehind = 0.1;
-// Bends along an edge are measured over steps of this share along it, and of this length, mm: over shorter
-// ones the normals of searched sweeps tell of their errors.
-constexpr double kAlong = 0.9, kLeastAlong = 1e-2;
+// Bends along an edge are measured over steps of this share along it, and at least this long beside the way
+// to the point: over shorter ones the normals of searched sweeps tell of their errors.
+constexpr double kAlong = 0.9, kLeastAlong = 0.0025;
 
 // For places where the planes do not agree (normals of swept edges jump): follows the surface as long as the
 // distance falls.
@@ -133,7 +133,8 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         q += there ? step : (longest_mm / size) * step;
         // A step to the edge tells nothing of the bend along it.
         along_mm = on_edge ? dot(step, edge.along) * (step_mm / size) : 0;
-        if (std::abs(along_mm) < std::max(kAlong * step_mm, kLeastAlong)) along_mm = 0;
+        if (std::abs(along_mm) < std::max(kAlong * step_mm, kLeastAlong * distance(point_mm, q)))
+            along_mm = 0;
     }
     return {{0, {0, 0, 1}, 0}, q, {}};
 }

@@ -77,7 +77,7 @@ TEST(DistanceField, an_edge_that_bends_is_followed_in_three_rounds_and_once_its_
             const Foot foot = nearest_on(c.field, p, sides.nearest_on_bend(p, edge, flat, at), sides);
             ASSERT_TRUE(foot.found) << n;
             EXPECT_NEAR(foot.sample.distance_mm, c.way, 1e-5) << n;
-            EXPECT_LE(c.field.asked, 2 * 6) << n;
+            EXPECT_LE(c.field.asked, 2 * 4) << n;
             all += c.field.asked;
             at = foot.at_mm;
             sides = foot.sides;
