@@ -58,7 +58,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
     await picture("bowl");
     const app = loaded.filter((l) => /\.(html|js|css)$|\/$/.test(l.url)).reduce((sum, l) => sum + l.bytes, 0);
     expect(app).toBeGreaterThan(50_000);
-    expect(app).toBeLessThan(205_000);
+    expect(app).toBeLessThan(200_000);
   });
 
   it(

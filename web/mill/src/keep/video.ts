@@ -7,7 +7,6 @@ import type { Scene } from "../sight/scene.js";
 import { fixed } from "../texts/figures.js";
 import { t } from "../texts/texts.js";
 import type { Sound } from "../sound/sound.js";
-import { withLength } from "./webm.js";
 
 // A processor keeps up with VP8; VP9 is what other browsers offer.
 const TYPES = ["video/webm;codecs=vp8,opus", "video/webm"];
@@ -43,6 +42,8 @@ export function listenToVideo(scene: Scene, sound: Sound, { wake, name, say }: V
   const nextPicture = () => new Promise((drawn) => requestAnimationFrame(drawn));
 
   async function begin(): Promise<void> {
+    // Before the first picture: where it cannot be had, nothing is recorded in vain.
+    const { withLength } = await import("./webm.js");
     const { width, height } = scene.canvas;
     const scale = Math.min(1, LARGEST_SIDE / Math.max(width, height));
     const copy = document.createElement("canvas");
