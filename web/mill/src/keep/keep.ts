@@ -7,7 +7,6 @@ import type { History } from "../panels/history.js";
 import type { Scene } from "../sight/scene.js";
 import { clock } from "../page.js";
 import { t } from "../texts/texts.js";
-import { glb } from "./glb.js";
 import { ENDING, fragmentOf, LONGEST_FRAGMENT, pack, type Moment } from "./moment.js";
 import { rowsCsv } from "./rows_csv.js";
 import { stl } from "./stl.js";
@@ -33,13 +32,21 @@ export function listenToKeep(
       (error: unknown) => say(wordsOf(error)),
     );
   });
-  const keepPart = async (ending: string, made: (part: Triangles[]) => Blob) =>
-    download(made(await scene.triangles()), name(ending));
+  const keepPart = async (ending: string, made: (part: Triangles[]) => Blob | Promise<Blob>) => {
+    try {
+      download(await made(await scene.triangles()), name(ending));
+    } catch (error) {
+      say(wordsOf(error));
+    }
+  };
   element("keep-part").addEventListener(
     "click",
     () => void keepPart("stl", (part) => new Blob([stl(part)], { type: "model/stl" })),
   );
-  element("keep-glb").addEventListener("click", () => void keepPart("glb", (part) => glb(part, scene.colours)));
+  element("keep-glb").addEventListener(
+    "click",
+    () => void keepPart("glb", async (part) => (await import("./glb.js")).glb(part, scene.colours)),
+  );
   element("keep-rows").addEventListener("click", () =>
     download(new Blob([rowsCsv(history.rows)], { type: "text/csv" }), name("csv")),
   );
