@@ -7,7 +7,6 @@
 
 #include "base/text/decimal.hpp"
 #include "base/text/limit_text.hpp"
-#include "field/contour/contour.hpp"
 #include "field/contour/contour_refine.hpp"
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
@@ -121,9 +120,7 @@ const session::MillTotals& Mill::totals() const {
 }
 
 TriangleMesh Mill::part() const {
-    TriangleMesh mesh = field::contour(state_->session->stock(), state_->parallel);
-    field::refine(mesh, state_->session->stock(), field::kFileSagittaMm, state_->parallel);
-    return mesh;
+    return field::fine_contour(state_->session->stock(), state_->parallel);
 }
 
 const contact::DistanceField& Mill::surface() const {

@@ -6,7 +6,6 @@
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "contact/contact_sample.hpp"
-#include "field/contour/contour.hpp"
 #include "field/contour/contour_refine.hpp"
 #include "golden/golden.hpp"
 #include "milling/tool/cutter_shape.hpp"
@@ -73,8 +72,7 @@ std::uint64_t milled(const job::Job& job, motion::Program program) {
                                t.chip_mm3, t.mean_force_n, t.peak_force_n, t.peak_power_w})
         hash.add(value);
     hash.add(t.rows);
-    TriangleMesh mesh = field::contour(session.stock());
-    field::refine(mesh, session.stock(), field::kFileSagittaMm);
+    const TriangleMesh mesh = field::fine_contour(session.stock());
     for (const Point3f& p : mesh.positions) hash.add(p);
     hash.add(mesh.triangles.size());
     return t.rows > 10 ? hash.value() : 0;

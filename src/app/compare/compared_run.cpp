@@ -9,7 +9,6 @@
 #include "app/progress.hpp"
 #include "app/render/part_deviation.hpp"
 #include "app/render/render_sinks.hpp"
-#include "field/contour/contour.hpp"
 #include "field/contour/contour_refine.hpp"
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
@@ -225,8 +224,7 @@ FileResult<std::optional<ComparedRun>> mill_run(ComparedInput input, const std::
     std::optional<surface::ToothTraces> traces;
     if (chatter) traces = chatter->take_surface();
     if (bending) traces = bending->take();
-    run.mesh = field::contour(run.session->stock(), parallel);
-    field::refine(run.mesh, run.session->stock(), field::kFileSagittaMm, parallel);
+    run.mesh = field::fine_contour(run.session->stock(), parallel);
     run.untouched = session::untouched_triangles(
         run.mesh, session::vertices_on_blank(run.mesh, run.session->stock().blank(), parallel));
     if (auto done = measure(prepared, std::move(traces), parallel, run); !done)

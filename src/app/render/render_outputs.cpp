@@ -10,7 +10,6 @@
 #include "app/render/report_chatter.hpp"
 #include "app/render/report_sheet.hpp"
 #include "base/text/decimal.hpp"
-#include "field/contour/contour.hpp"
 #include "field/contour/contour_refine.hpp"
 #include "files/model/gltf.hpp"
 #include "job/listening.hpp"
@@ -144,8 +143,7 @@ FileResult<void> RenderOutputs::finish(const session::MillSession& session,
     TriangleMesh mesh;
     std::vector<std::uint8_t> on_blank;
     if (call_.wants("mesh") || call_.wants("report")) {
-        mesh = field::contour(session.stock(), parallel_);
-        field::refine(mesh, session.stock(), field::kFileSagittaMm, parallel_);
+        mesh = field::fine_contour(session.stock(), parallel_);
         on_blank = session::vertices_on_blank(mesh, session.stock().blank(), parallel_);
         summary.triangles = mesh.triangles.size();
     }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "field/contour/contour.hpp"
 #include "field/contour/contour_brick.hpp"
 #include "field/contour/contour_table.hpp"
 
@@ -371,6 +372,13 @@ class Refinement {
 void refine(TriangleMesh& mesh, const CarvedField& field, double sagitta_mm, const ParallelFor& parallel) {
     mesh.normals.clear();
     Refinement(mesh, field, sagitta_mm, parallel).run();
+}
+
+TriangleMesh fine_contour(const CarvedField& field, const ParallelFor& parallel) {
+    constexpr double kSagittaMm = 0.01;
+    TriangleMesh mesh = contour(field, parallel);
+    refine(mesh, field, kSagittaMm, parallel);
+    return mesh;
 }
 
 }  // namespace tribo::field

@@ -8,14 +8,14 @@
 
 namespace tribo::field {
 
-// Edges may leave the surface by this much in a mesh that is written to a file, mm.
-inline constexpr double kFileSagittaMm = 0.01;
-
 // Splits each edge of a mesh of the field (contour.hpp) whose middle is farther than `sagitta_mm` from the
 // surface, or from the edge of the surface that it lies on. The new vertex is on the surface. The mesh stays
 // closed. Needs time only where the surface bends over a cell: a mesh of a fine grid does not change. Does
 // not depend on `parallel`. Drops the normals.
 void refine(TriangleMesh& mesh, const CarvedField& field, double sagitta_mm,
             const ParallelFor& parallel = serial_for);
+
+// The mesh of the field for files and reports: contour(), refined to 0.01 mm.
+TriangleMesh fine_contour(const CarvedField& field, const ParallelFor& parallel = serial_for);
 
 }  // namespace tribo::field
