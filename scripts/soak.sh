@@ -13,18 +13,8 @@ case ${1:-short} in
     *) fail "soak.sh takes short or long" ;;
 esac
 
-# Threads come in from outside; only these tests bring some. Of the hand: what reads a field that another thread carves,
-# and the servo; its other tests take minutes and have one thread.
-with_threads='^((field|devices|net|session|files|tribo|app)\.|haptics\.(CarvedContact|CutUnderProbe|ForceTablePlayer|Servo))'
-thread_targets() {
-    ninja -C build/tsan -t targets all 2>/dev/null | grep -oE '^test_(field|haptics|devices|net|session|files|tribo|app):' | tr -d ':' || true
-}
 thread_sanitizer() {
-    cmake --preset tsan >/dev/null || return 1
-    local targets
-    mapfile -t targets < <(thread_targets)
-    if [ ${#targets[@]} -eq 0 ]; then return; fi
-    cmake --build --preset tsan --target "${targets[@]}" && TSAN_OPTIONS="suppressions=$PWD/scripts/thread_sanitizer.supp" run_ctest tsan -R "$with_threads"
+    configure_and_build tsan && TSAN_OPTIONS="suppressions=$PWD/scripts/thread_sanitizer.supp" run_ctest tsan
 }
 
 # Random speeds, places and spindles: no NaN, nothing beyond full scale, no click.
@@ -39,7 +29,7 @@ fuzz_one() {
     # Programs in the style of many posts, which a test reads too.
     [[ $reader =~ ^(apt|gcode|heidenhain|siemens)$ ]] && seeds+=(tests/job/posts)
     # Findings go to the first folder; the committed corpus is only read.
-    if "build/fuzz/fuzz/fuzz_$reader" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
+    if "build/asan/fuzz/fuzz_$reader" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -print_final_stats=1 \
         -artifact_prefix="build/fuzz/crashes/$reader-" "$work" "${seeds[@]}" >"$log" 2>&1; then
         printf '%-12s %s\n' "$reader" "$(sed -n 's/^stat::number_of_executed_units: */runs: /p' "$log")"
     else
@@ -65,7 +55,7 @@ fuzz_all() {
     mapfile -t readers < <(ls fuzz | sed -n 's/^fuzz_\(.*\)\.cpp$/\1/p')
     if [ ${#readers[@]} -eq 0 ]; then return; fi
     rm -rf build/fuzz/crashes
-    configure_and_build fuzz --target fuzzers &&
+    configure_and_build asan --target fuzzers &&
         { printf '%s\n' "${readers[@]}" | xargs -P "$JOBS" -I{} bash -c "fuzz_one {} $fuzz_seconds" || show_findings; }
 }
 
@@ -85,7 +75,13 @@ long_tests() {
     done
 }
 
-test_preset asan
+# Under these sanitizers each of them takes one to four minutes. Other tests of theirs run the same code.
+minutes='^(dynamics\.Stability\.of_many_cuts_|field\.Contour\.keeps_a_wall_that_|milling\.MilledMesh\.|session\.ProfileCut\.does_the_work_)'
+if [ "${1:-short}" = long ]; then
+    test_preset asan
+else
+    test_preset asan -E "$minutes"
+fi
 if [ "${1:-short}" = long ]; then
     say "long tests"
     step "long tests" long_tests

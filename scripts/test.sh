@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Every test: form, g++ (release preset), WebAssembly in Node.js, the pages in Chromium; with clang (dev preset) the
-# golden bits, for soak.sh runs every test with clang. Runs all, then says how each went.
+# Every test: form, g++ (release preset), WebAssembly in Node.js, the pages in Chromium; with clang (asan preset) the
+# golden bits, for soak.sh runs every test of that build. Runs all, then says how each went.
 source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
 
@@ -9,9 +9,9 @@ say "form of the sources"
 step "clang-format" scripts/check_format.sh
 test_preset release
 step "hardening" scripts/check_hardening.sh
-say "dev"
-step "dev: build" configure_and_build dev --target tribo test_golden
-step "dev: golden bits" run_ctest dev -R '^golden\.'
+say "clang"
+step "clang: build" configure_and_build asan --target tribo test_golden
+step "clang: golden bits" run_ctest asan -R '^golden\.'
 step "clang-tidy" scripts/tidy.sh --changed
 step "API reference" scripts/docs.sh
 say "wasm"

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/run/program.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 namespace {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/run/job_folder.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "files/disk_source.hpp"
 #include "job/memory_source.hpp"
+#include "places.hpp"
 #include "session/cut/job_stock.hpp"
 #include "session/cut/mill_setup.hpp"
 

@@ -6,6 +6,7 @@
 #include "app/run/program.hpp"
 #include "field/self_intersection.hpp"
 #include "files/model/model_file.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 namespace {

@@ -25,22 +25,23 @@ inline void* counted(std::size_t size) {
 #endif
 
 #ifndef TRIBO_NOT_COUNTED
+// Not inlined: g++ 12 would see free() beside operator new and take them for a mismatch.
 void* operator new(std::size_t size) {
     return tribo::test::counted(size);
 }
 void* operator new[](std::size_t size) {
     return tribo::test::counted(size);
 }
-void operator delete(void* p) noexcept {
+[[gnu::noinline]] void operator delete(void* p) noexcept {
     std::free(p);
 }
-void operator delete[](void* p) noexcept {
+[[gnu::noinline]] void operator delete[](void* p) noexcept {
     std::free(p);
 }
-void operator delete(void* p, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept {
     std::free(p);
 }
-void operator delete[](void* p, std::size_t) noexcept {
+[[gnu::noinline]] void operator delete[](void* p, std::size_t) noexcept {
     std::free(p);
 }
 #endif

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
+#include "places.hpp"
+
 namespace tribo::devices {
 namespace {
 

@@ -14,6 +14,7 @@
 
 #include "elastic/colour_difference.hpp"
 #include "elastic/picture.hpp"
+#include "places.hpp"
 
 namespace tribo::elastic {
 namespace {

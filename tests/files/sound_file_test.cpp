@@ -13,6 +13,7 @@
 #include "noise/learn/learning.hpp"
 #include "noise/learn/sound_statistics.hpp"
 #include "noise/play/model_noise.hpp"
+#include "places.hpp"
 
 namespace tribo::files {
 namespace {

@@ -9,6 +9,8 @@
 #include <map>
 #include <string>
 
+#include "places.hpp"
+
 namespace tribo::golden {
 namespace {
 

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "house/house_rules.hpp"
+#include "places.hpp"
 
 namespace tribo::house {
 namespace {

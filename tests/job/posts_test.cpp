@@ -12,6 +12,7 @@
 
 #include "job/program_file.hpp"
 #include "motion/path/path.hpp"
+#include "places.hpp"
 
 namespace tribo::job {
 namespace {

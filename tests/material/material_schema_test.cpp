@@ -12,6 +12,7 @@
 #include "files/json/json.hpp"
 #include "material/material_fields.hpp"
 #include "material/material_json.hpp"
+#include "places.hpp"
 
 namespace tribo::material {
 namespace {

@@ -12,6 +12,7 @@
 #include "files/json/json.hpp"
 #include "material/material_json.hpp"
 #include "noise/play/friction_voice.hpp"
+#include "places.hpp"
 
 namespace tribo::material {
 namespace {

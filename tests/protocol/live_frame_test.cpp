@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "files/json/json.hpp"
+#include "places.hpp"
 #include "protocol/live_fields.hpp"
 
 namespace tribo::protocol {

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "places.hpp"
+
 namespace tribo::readers {
 
 // The bytes of a file of ../shared/data/gcode; none where the folder is missing.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "places.hpp"
 #include "readers/apt/reader.hpp"
 #include "readers/gcode/reader.hpp"
 #include "readers/heidenhain/reader.hpp"

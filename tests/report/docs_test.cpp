@@ -10,6 +10,7 @@
 #include "job/toml/job_toml.hpp"
 #include "milling/engagement/machining.hpp"
 #include "milling/tool/materials.hpp"
+#include "places.hpp"
 #include "readers/tables/forces_csv.hpp"
 #include "report/summary_json.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "files/scratch.hpp"
 #include "haptics/contact/field_contact.hpp"
+#include "places.hpp"
 #include "tribo/sound.hpp"
 
 namespace tribo {

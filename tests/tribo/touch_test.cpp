@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "files/scratch.hpp"
+#include "places.hpp"
 
 namespace tribo {
 namespace {

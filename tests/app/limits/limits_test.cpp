@@ -12,6 +12,7 @@
 #include "app/limits/doors.hpp"
 #include "base/text/limit_text.hpp"
 #include "files/files.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 

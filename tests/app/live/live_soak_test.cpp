@@ -12,6 +12,7 @@
 #include "app/run/live_engine.hpp"
 #include "app/run/live_viewer.hpp"
 #include "net/raw_client.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 namespace {
@@ -72,7 +73,7 @@ std::string listed(const std::vector<double>& values) {
 }
 
 TEST(LiveSoak, playing_again_and_again_leaves_memory_flat) {
-    if (kKeepsFreedMemory) GTEST_SKIP() << "the address sanitizer keeps what is freed for a while";
+    if (kAddressSanitizer) GTEST_SKIP() << "the address sanitizer keeps what is freed for a while";
     const Played played = play(seconds(8), 0);
     ASSERT_GE(played.resident_mb.size(), 6u);
     EXPECT_GE(played.rounds, 2);

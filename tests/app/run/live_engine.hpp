@@ -13,17 +13,6 @@
 
 namespace tribo::test {
 
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define TRIBO_ADDRESS_SANITIZER
-#endif
-#endif
-#if defined(TRIBO_ADDRESS_SANITIZER) || defined(__SANITIZE_ADDRESS__)
-inline constexpr bool kKeepsFreedMemory = true;
-#else
-inline constexpr bool kKeepsFreedMemory = false;
-#endif
-
 // Mills a plate in zigzag, 45 s of program.
 class LiveEngine {
   public:

@@ -10,6 +10,8 @@
 #include <unistd.h>
 #include <utility>
 
+#include "places.hpp"
+
 namespace tribo::test {
 
 namespace {

@@ -9,6 +9,7 @@
 
 #include "app/run/job_folder.hpp"
 #include "app/run/small_inputs.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 namespace {

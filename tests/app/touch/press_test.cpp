@@ -12,6 +12,7 @@
 #include "elastic/colour_difference.hpp"
 #include "files/image/image_file.hpp"
 #include "files/image/png.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 namespace {

@@ -11,6 +11,7 @@
 #include "files/sound/wav.hpp"
 #include "noise/learn/learning.hpp"
 #include "noise/learn/sound_statistics.hpp"
+#include "places.hpp"
 
 namespace tribo::test {
 namespace {

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "base/hash.hpp"
+#include "places.hpp"
 
 namespace tribo::readers {
 namespace {

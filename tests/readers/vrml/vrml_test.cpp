@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "places.hpp"
 #include "readers/mesh/model_samples.hpp"
 #include "readers/vrml/lexer.hpp"
 

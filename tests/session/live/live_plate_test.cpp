@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "job/memory_source.hpp"
+#include "places.hpp"
 #include "session/cut/mill_setup.hpp"
 #include "session/live/live_audit.hpp"
 
