@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # soak.sh short|long: the tests under the address, undefined-behaviour and thread sanitizers, minutes or an hour of
 # sound at random, then every fuzz target for a while from its corpus; long also plays the live view for twenty minutes,
-# and compares builds in two folders.
+# looks at the golden bits of an optimised clang, and compares builds in two folders.
 # What fuzzing finds is left under build/fuzz/crashes/, nothing in the source tree.
 source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
@@ -95,6 +95,9 @@ step "fuzz" fuzz_all
 if [ "${1:-short}" = long ]; then
     say "long play"
     step "long play" long_play
+    say "optimised clang"
+    step "clang: build" configure_and_build dev --target tribo test_golden
+    step "clang: golden bits" run_ctest dev -R '^golden\.'
     say "two builds"
     step "same bits" scripts/check_reproducible.sh
 fi
