@@ -76,7 +76,9 @@ long_tests() {
 }
 
 # Under these sanitizers each of them takes one to four minutes. Other tests of theirs run the same code.
-minutes='^(dynamics\.Stability\.of_many_cuts_|field\.Contour\.keeps_a_wall_that_|milling\.MilledMesh\.|session\.ProfileCut\.does_the_work_)'
+minutes="^(app\\.PartMesh\\.of_every_example_|app\\.RenderChatter\\.says_that_its_modes_"
+minutes+="|dynamics\\.Stability\\.of_many_cuts_|field\\.Contour\\.keeps_a_wall_that_"
+minutes+="|milling\\.MilledMesh\\.|session\\.ProfileCut\\.does_the_work_)"
 if [ "${1:-short}" = long ]; then
     test_preset asan
 else
