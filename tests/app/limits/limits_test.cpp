@@ -2,7 +2,6 @@
 // The table of limits against every door by which its quantities come in, and against docs/limits.md.
 #include "base/limits.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -15,12 +14,6 @@
 #include "places.hpp"
 
 namespace tribo::test {
-
-std::string written(double value) {
-    char text[400];
-    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed);
-    return {text, end.ptr};
-}
 
 namespace {
 
