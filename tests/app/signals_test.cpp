@@ -23,8 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 // The promise is a second; a loaded machine and sanitizers take more. Without the promise: for ever.
 constexpr auto kSoon = std::chrono::seconds(10);
-// No promise: only a run that never begins ends this wait.
-constexpr auto kBegun = std::chrono::minutes(2);
 constexpr auto kUnderWay = std::chrono::milliseconds(400);
 constexpr auto kLook = std::chrono::milliseconds(1);
 
@@ -57,7 +55,7 @@ class Signals : public testing::Test {
     void expect_end_of_writing(const std::vector<std::string>& arguments, int signal,
                                std::chrono::milliseconds after) const {
         RunningTribo run(arguments, scratch.path());
-        const auto give_up = Clock::now() + kBegun;
+        const auto give_up = Clock::now() + kSoon;
         while (!makes_something() && Clock::now() < give_up) std::this_thread::sleep_for(kLook);
         EXPECT_TRUE(makes_something()) << arguments[0];
         std::this_thread::sleep_for(after);
