@@ -124,4 +124,18 @@ export class MillPage {
   readonly choose = async (...files: ReturnType<typeof file>[]): Promise<void> => {
     await this.page.setInputFiles("#files", files);
   };
+  /** Chooses a job that the engine takes, and waits until it stands at its start: what the page said of another one is gone. */
+  readonly load = async (...files: ReturnType<typeof file>[]): Promise<void> => {
+    await this.page.evaluate(() => {
+      for (const id of ["job", "clock"]) document.getElementById(id)!.textContent = "";
+    });
+    await this.choose(...files);
+    await this.page.waitForFunction(
+      () =>
+        document.getElementById("job")!.textContent &&
+        document.getElementById("clock")!.textContent.startsWith("0:00 /"),
+      null,
+      { timeout: PATIENCE_MS },
+    );
+  };
 }

@@ -129,8 +129,7 @@ describe.runIf(hasMillPage)("two runs from the page", () => {
   beforeAll(async () => {
     mill = await MillPage.open();
     ({ page } = mill);
-    await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-    await mill.until("job.toml", "job");
+    await mill.load(file("job.toml", JOB), file("p.nc", PROGRAM));
     await page.click("#show-panel");
   }, PATIENCE_MS);
   afterAll(() => mill?.close());

@@ -13,6 +13,7 @@ const SURFACE = "v 0 0 -2\nv 30 0 -2\nv 30 16 -2\nv 0 16 -2\nf 1 2 3\nf 1 3 4\n"
 describe.runIf(hasMillPage)("files of the page without an engine", () => {
   let mill: MillPage;
   let choose: MillPage["choose"];
+  let load: MillPage["load"];
   let folder: MillPage["folder"];
   let page: MillPage["page"];
   let picture: MillPage["picture"];
@@ -22,7 +23,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
 
   beforeAll(async () => {
     mill = await MillPage.open();
-    ({ choose, folder, page, picture, removed, text, until } = mill);
+    ({ choose, folder, load, page, picture, removed, text, until } = mill);
     await page.click("#show-panel");
   }, PATIENCE_MS);
 
@@ -36,7 +37,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
         "helix",
         "runout_mm = 0.02\nrunout_spread = 1\nhelix",
       );
-      await choose(file("uneven.toml", job), file("p.nc", PROGRAM));
+      await load(file("uneven.toml", job), file("p.nc", PROGRAM));
       await until("uneven.toml", "job");
       await page.fill("#time", "1.2");
       await until("N", "peak");
@@ -49,8 +50,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
       await picture("cases");
       await page.uncheck("#cases");
       await page.waitForSelector("#band-row", { state: "hidden", timeout: PATIENCE_MS });
-      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-      await until("job.toml", "job");
+      await load(file("job.toml", JOB), file("p.nc", PROGRAM));
       expect(await page.isVisible("#cases")).toBe(true);
       expect(await page.isChecked("#cases")).toBe(false);
       await page.fill("#time", "1000");
@@ -132,7 +132,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
   it(
     "shows what a program was milled with, mills it as it is changed, and saves the job",
     async () => {
-      await choose(file("mine.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
+      await load(file("mine.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
       await until("mine.nc", "job");
       await expect.poll(() => page.inputValue("#job-text"), { timeout: PATIENCE_MS }).toContain('gcode = "mine.nc"');
       expect(await page.getAttribute("#setup-back", "disabled")).not.toBeNull();
@@ -188,8 +188,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
         { length: 120 },
         (_, n) => `G0 X${2 * (n % 14) + 2} Y${1.5 * Math.floor(n / 14) + 1}\nG0 Z-${1 + n / 60}\nG0 Z5\n`,
       );
-      await choose(file("job.toml", JOB), file("p.nc", `G21 G90\nG0 Z5\n${dives.join("")}`));
-      await until("job.toml", "job");
+      await load(file("job.toml", JOB), file("p.nc", `G21 G90\nG0 Z5\n${dives.join("")}`));
       await page.selectOption("#speed", "50");
       await page.click("#play");
       await until("The clock stands", "notice");
@@ -197,7 +196,7 @@ describe.runIf(hasMillPage)("files of the page without an engine", () => {
       await page.click("#play");
       await until("and 20 more", "collisions");
       expect(await page.locator("#collisions li").count()).toBe(100);
-      await choose(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
+      await load(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
       await until("alone.nc", "job");
       await page.waitForSelector("#collisions", { state: "hidden", timeout: PATIENCE_MS });
     },

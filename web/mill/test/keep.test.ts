@@ -178,8 +178,7 @@ describe.runIf(hasMillPage)("taken away from the page without an engine", () => 
     mill = await MillPage.open();
     ({ page } = mill);
     await page.click("#show-panel");
-    await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-    await mill.until("job.toml", "job");
+    await mill.load(file("job.toml", JOB), file("p.nc", PROGRAM));
   }, PATIENCE_MS);
 
   afterAll(() => mill?.close());
@@ -353,7 +352,7 @@ describe.runIf(hasMillPage)("taken away from the page without an engine", () => 
     "is a small file where a link would be too long",
     async () => {
       const words = Array.from({ length: 4000 }, (_, n) => `(${Math.imul(n, 2654435761) >>> 0})`).join("\n");
-      await mill.choose(file("long.toml", JOB), file("p.nc", `${PROGRAM}${words}\n`));
+      await mill.load(file("long.toml", JOB), file("p.nc", `${PROGRAM}${words}\n`));
       await mill.until("long.toml", "job");
       expect(await page.isVisible("#link-box")).toBe(false);
       await page.fill("#time", "1.2");
@@ -363,7 +362,7 @@ describe.runIf(hasMillPage)("taken away from the page without an engine", () => 
       expect(bytes.length).toBeLessThan(60_000);
       expect(await mill.text("link-said")).toContain("Too long for a link (16000 characters at most)");
       expect(await page.isVisible("#link")).toBe(false);
-      await mill.choose(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
+      await mill.load(file("alone.nc", PROGRAM.replace("G21", "G21 S8000 F600")));
       await mill.until("alone.nc", "job");
       await page.setInputFiles("#files", path);
       await mill.until("long.toml", "job");

@@ -206,8 +206,7 @@ describe.runIf(hasMillPage)("the stock in the picture", () => {
   beforeAll(async () => {
     mill = await MillPage.open();
     await mill.page.setViewportSize({ width: 1280, height: 800 });
-    await mill.choose(file("job.toml", SLOT), file("p.nc", PROGRAM));
-    await mill.until("job.toml", "job");
+    await mill.load(file("job.toml", SLOT), file("p.nc", PROGRAM));
     await mill.page.click("#show-panel");
     await mill.page.waitForSelector("#setup-card:not([hidden])", { timeout: PATIENCE_MS });
     await mill.page.waitForTimeout(500);
@@ -298,7 +297,7 @@ describe.runIf(hasMillPage)("two set-ups on the card", () => {
     mill = await MillPage.open();
     const parts = ["bottom.toml", "bottom.nc", "top.toml", "top.nc"];
     const files = parts.map((name) => file(name, readFileSync(join(ROOT, "examples/housing", name), "utf8")));
-    await mill.choose(...files);
+    await mill.load(...files);
     await mill.until("bottom.toml", "job");
     await mill.page.click("#show-panel");
   }, PATIENCE_MS);

@@ -11,7 +11,7 @@ import { differing, small } from "../../testing/pictures.js";
 describe.runIf(hasMillPage)("the page without an engine", () => {
   let mill: MillPage;
   let browser: MillPage["browser"];
-  let choose: MillPage["choose"];
+  let load: MillPage["load"];
   let foreign: MillPage["foreign"];
   let loaded: MillPage["loaded"];
   let page: MillPage["page"];
@@ -24,7 +24,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
 
   beforeAll(async () => {
     mill = await MillPage.open();
-    ({ browser, choose, foreign, loaded, page, picture, problems, removed, server, text, until } = mill);
+    ({ browser, foreign, load, loaded, page, picture, problems, removed, server, text, until } = mill);
   }, PATIENCE_MS);
 
   afterAll(() => mill?.close());
@@ -64,7 +64,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
   it(
     "mills a job that is chosen with its files",
     async () => {
-      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
+      await load(file("job.toml", JOB), file("p.nc", PROGRAM));
       await until("job.toml", "job");
       await page.selectOption("#speed", "5");
       await page.click("#begin");
@@ -397,8 +397,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
   it(
     "plays a cut again and again",
     async () => {
-      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-      await until("job.toml", "job");
+      await load(file("job.toml", JOB), file("p.nc", PROGRAM));
       await page.selectOption("#speed", "1");
       await page.fill("#time", "1.2");
       await removed(0.05);
@@ -433,8 +432,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
     async () => {
       // Half a minute of air, then a cut.
       const air = "G21 G90\nG0 X-8 Y8 Z5\nG1 X22 F60\nZ-1 F600\nX35 F12\nM30\n";
-      await choose(file("job.toml", JOB), file("p.nc", air));
-      await until("job.toml", "job");
+      await load(file("job.toml", JOB), file("p.nc", air));
       await page.selectOption("#speed", "1");
       await page.click("#skip-air");
       expect(await page.getAttribute("#skip-air", "aria-pressed")).toBe("true");
@@ -456,7 +454,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
       await page.click("#play");
       await until("Play", "play");
       await page.click("#skip-air");
-      await choose(file("job.toml", JOB), file("p.nc", PROGRAM));
+      await load(file("job.toml", JOB), file("p.nc", PROGRAM));
       await until("4G1 X35", "program-line-4");
       await page.fill("#time", "1000");
       await page.waitForSelector("#next-problem:not([hidden])", { timeout: PATIENCE_MS });

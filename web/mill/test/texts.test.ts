@@ -120,8 +120,7 @@ describe.runIf(hasMillPage)("the page in German", () => {
     "says nothing in English with all panels open, after a cut with a collision",
     async () => {
       await page.setViewportSize({ width: 1280, height: 800 });
-      await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-      await mill.until("job.toml", "job");
+      await mill.load(file("job.toml", JOB), file("p.nc", PROGRAM));
       await page.fill("#time", "1000");
       await page.waitForSelector('#verdict[data-damage="true"]', { timeout: PATIENCE_MS });
       await page.click("#show-panel");

@@ -114,8 +114,7 @@ describe.runIf(hasMillPage)("the bench in other windows", () => {
     "shows all of a bad verdict on a phone, and marks the collision",
     async () => {
       await page.setViewportSize(PHONE);
-      await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-      await mill.until("job.toml", "job");
+      await mill.load(file("job.toml", JOB), file("p.nc", PROGRAM));
       await page.fill("#time", "1000");
       await page.waitForSelector('#verdict[data-damage="true"]', { timeout: PATIENCE_MS });
       const cutOff = () =>
@@ -136,14 +135,12 @@ describe.runIf(hasMillPage)("the bench in other windows", () => {
     "says a collision once; on a tablet nothing of the verdict is cut off",
     async () => {
       await page.setViewportSize({ width: 820, height: 1180 });
-      await mill.choose(file("job.toml", JOB), file("p.nc", PROGRAM));
-      await mill.until("job.toml", "job");
+      await mill.load(file("job.toml", JOB), file("p.nc", PROGRAM));
       await page.fill("#time", "1000");
       await page.waitForSelector('#verdict[data-damage="true"]', { timeout: PATIENCE_MS });
       expect(await page.isVisible("#collisions")).toBe(false);
       // A second one: it is deeper in the same rapid.
-      await mill.choose(file("p.nc", `${PROGRAM}G0 Z5\nG0 X5 Y12\nG0 Z-3\n`));
-      await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
+      await mill.load(file("p.nc", `${PROGRAM}G0 Z5\nG0 X5 Y12\nG0 Z-3\n`));
       await page.fill("#time", "1000");
       await page.waitForSelector("#collisions:not([hidden])", { timeout: PATIENCE_MS });
       await mill.picture("tablet_collisions");
