@@ -40,8 +40,11 @@ export class MillPage {
     readonly page: Page,
   ) {}
 
-  /** With the first example, ready to be milled; `lang`: in another language than English. */
-  static async open({ lang = "en" } = {}): Promise<MillPage> {
+  /**
+   * With the first example, ready to be milled; `lang`: in another language than English; `look`: with another light
+   * than the plain one, unless pictures are made. Drawn in software, the fine light takes most of the processor.
+   */
+  static async open({ lang = "en", look = PICTURES ? "auto" : "plain" } = {}): Promise<MillPage> {
     const server = await serveFolder(SITE);
     const browser = await launch();
     const page = await browser.newPage({ viewport: { width: 1000, height: 700 } });
@@ -62,7 +65,10 @@ export class MillPage {
       });
     });
     // Not the first visit, which begins with the film.
-    await page.addInitScript(() => localStorage.setItem("tribo.film", "seen"));
+    await page.addInitScript((light) => {
+      localStorage.setItem("tribo.film", "seen");
+      localStorage.setItem("tribo.look", light);
+    }, look);
     // What goes to the loudspeaker also goes to a meter.
     await page.addInitScript(() => {
       const nodes = AudioNode.prototype as unknown as { connect(this: AudioNode, to: AudioNode): AudioNode };

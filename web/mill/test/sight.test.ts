@@ -52,10 +52,9 @@ describe.runIf(hasMillPage)("the bowl", () => {
   let page: Page;
 
   beforeAll(async () => {
-    mill = await MillPage.open();
+    mill = await MillPage.open({ look: "fine" });
     ({ page } = mill);
     await page.addInitScript(putFaults, SHADOW_PIXELS);
-    await page.addInitScript(() => localStorage.setItem("tribo.look", "fine"));
     await page.emulateMedia({ reducedMotion: "reduce", colorScheme: "light" });
     await page.reload();
     await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });

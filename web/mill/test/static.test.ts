@@ -23,7 +23,7 @@ describe.runIf(hasMillPage)("the page without an engine", () => {
   let until: MillPage["until"];
 
   beforeAll(async () => {
-    mill = await MillPage.open();
+    mill = await MillPage.open({ look: "auto" });
     ({ browser, foreign, load, loaded, page, picture, problems, removed, server, text, until } = mill);
   }, PATIENCE_MS);
 

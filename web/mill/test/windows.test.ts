@@ -17,10 +17,9 @@ describe.runIf(hasMillPage)("the bench in other windows", () => {
   let page: Page;
 
   beforeAll(async () => {
-    mill = await MillPage.open();
-    ({ page } = mill);
     // The plain light throws no shadow: what is dark is the part or its tool.
-    await page.addInitScript(() => localStorage.setItem("tribo.look", "plain"));
+    mill = await MillPage.open({ look: "plain" });
+    ({ page } = mill);
     await page.emulateMedia({ colorScheme: "light", reducedMotion: "reduce" });
     await page.setViewportSize(PHONE);
     await page.reload();
