@@ -110,6 +110,23 @@ describe.runIf(hasMillPage)("the bench in other windows", () => {
   );
 
   it(
+    "leaves half of a low wide window to the part when plots are open",
+    async () => {
+      const height = 720;
+      await page.setViewportSize({ width: 1280, height });
+      await press("show-plots");
+      await expect.poll(async () => (await box("stage")).height, LONG).toBeGreaterThan(height / 2);
+      const [lanes, plots] = [(await page.locator("footer").boundingBox())!, await box("plots")];
+      expect(plots.y).toBe(lanes.y);
+      expect(plots.x).toBeGreaterThan(lanes.x + lanes.width);
+      expect(plots.width).toBeGreaterThan(500);
+      await expect.poll(dark(await box("stage")), LONG).toBeGreaterThan(0.05);
+      await press("show-plots");
+    },
+    PATIENCE_MS,
+  );
+
+  it(
     "shows all of a bad verdict on a phone, and marks the collision",
     async () => {
       await page.setViewportSize(PHONE);
