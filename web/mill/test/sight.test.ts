@@ -44,6 +44,28 @@ function putFaults(shadowPixels: number): void {
     if (!drops()) drawArrays.apply(this, all);
   };
 }
+
+type First = { drawnBefore?: number };
+
+/** In the page: counts what is drawn after the first picture and before it is on its way to the screen. */
+function watchFirst(): void {
+  const first = window as First;
+  const gl = WebGL2RenderingContext.prototype;
+  let is: "awaited" | "drawn" | "made" | "shown" = "awaited";
+  for (const how of ["drawElements", "drawArrays"] as const) {
+    const draw = gl[how] as (...all: unknown[]) => void;
+    (gl as unknown as Record<string, typeof draw>)[how] = function (...all) {
+      if (is === "made") ++first.drawnBefore!;
+      if (is === "awaited") {
+        is = "drawn";
+        first.drawnBefore = 0;
+        void Promise.resolve().then(() => (is = "made"));
+        requestAnimationFrame(() => setTimeout(() => (is = "shown")));
+      }
+      draw.apply(this, all);
+    };
+  }
+}
 // As in src/sight/light.ts.
 const SHADOW_PIXELS = 2048;
 
@@ -55,6 +77,7 @@ describe.runIf(hasMillPage)("the bowl", () => {
     mill = await MillPage.open({ look: "fine" });
     ({ page } = mill);
     await page.addInitScript(putFaults, SHADOW_PIXELS);
+    await page.addInitScript(watchFirst);
     await page.emulateMedia({ reducedMotion: "reduce", colorScheme: "light" });
     await page.reload();
     await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
@@ -113,6 +136,10 @@ describe.runIf(hasMillPage)("the bowl", () => {
     await set(undefined);
     return changed;
   };
+
+  it("is on the screen before reflections and shadows are made", async () => {
+    expect(await page.evaluate(() => (window as First).drawnBefore)).toBe(0);
+  });
 
   it(
     "is a sawn block at first, on the ground in its own shadow",

@@ -12,3 +12,8 @@ export function oncePerFrame(work: () => void): () => void {
     });
   };
 }
+
+/** Does the work when the picture of this moment is on its way to the screen: what takes long does not hold it up. */
+export function afterPicture(work: () => void): void {
+  requestAnimationFrame(() => setTimeout(work));
+}

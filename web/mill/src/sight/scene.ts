@@ -26,6 +26,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
 import type { ChunkFrame, DesignedFrame, JobFrame, PathFrame, Row, StateFrame } from "@tribo/protocol/frames";
 import { vec3 } from "@tribo/protocol/vec3";
+import { afterPicture } from "@tribo/ui/frame";
 import { USUAL_VIEW } from "@tribo/ui/studio";
 import type { View } from "../keep/moment.js";
 import { t } from "../texts/texts.js";
@@ -486,9 +487,13 @@ export class Scene {
     if (this.look === "auto" && this.fine) this.pace.drawn(performance.now());
     if (this.seen) return;
     this.seen = true;
-    // Reflections and shadows come after the first picture.
-    setTimeout(() => this.choose(), 0);
-    this.draw();
+    // Nothing else is drawn until the first picture is on the screen. Reflections and shadows come after all objects.
+    this.wanted = true;
+    afterPicture(() => {
+      this.wanted = false;
+      this.draw();
+      afterPicture(() => this.choose());
+    });
   }
 
   /** What is seen, over the colour of the page. */
