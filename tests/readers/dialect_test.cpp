@@ -24,6 +24,11 @@ TEST(Dialect, IsToldByWhatOnlyOneControlWrites) {
         {"o<pocket1> sub\n", Dialect::linuxcnc},
         {"o<cycle81> call [1]\n", Dialect::linuxcnc},
         {"DPRNT[POCKET DONE]\n", Dialect::fanuc},
+        // LinuxCNC refuses a cycle without R.
+        {"G0 Z5\nG98 G81 Z-3 F100\nX10\n", Dialect::fanuc},
+        {"G0 Z5\nG83 X1 Z-3 Q1 F100 (no R)\nG81 Z-3 R1\n", Dialect::fanuc},
+        {"G0 Z5\nG81 X1 Z-3 R1 F100\nG81 Z-4\n", std::nullopt},
+        {"G0 Z5\nG80 Z5\nG90 Z-3\nG8 Z1\n", std::nullopt},
         {"N10 POCKET3(5,0,1,-9)\n", Dialect::siemens},
         {"HOLES2(0,0,20,0,60,6)\n", Dialect::siemens},
         {"%\nM428\n", Dialect::linuxcnc},

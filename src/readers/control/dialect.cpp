@@ -95,6 +95,16 @@ bool is_program_number(std::string_view text) {
            std::all_of(text.begin() + 1, text.end(), is_digit);
 }
 
+// G81 to G89 or G73 with a depth.
+bool begins_cycle(std::string_view text) {
+    if (text.find('Z') == std::string_view::npos) return false;
+    for (std::size_t i = text.find('G'); i != std::string_view::npos; i = text.find('G', i + 1)) {
+        const std::string_view code = text.substr(i, 3);
+        if (code == "G73" || (code > "G80" && code <= "G89")) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::optional<Dialect> dialect_of(std::string_view word) {
@@ -111,6 +121,7 @@ std::string_view name_of(Dialect dialect) {
 std::optional<Dialect> detect_dialect(std::string_view bytes) {
     TextLines lines(bytes.substr(0, kLookedAt));
     bool first = true;
+    std::optional<bool> has_level;  // of the first cycle
     while (const auto line = lines.next()) {
         const std::string text = plain(*line);
         if (text.empty() || text == "%") continue;
@@ -119,7 +130,10 @@ std::optional<Dialect> detect_dialect(std::string_view bytes) {
             if (text.find(sign.text) != std::string::npos) return sign.dialect;
         }
         if (looks_like_siemens(text)) return Dialect::siemens;
+        if (!has_level && begins_cycle(text)) has_level = text.find('R') != std::string::npos;
     }
+    // LinuxCNC refuses a cycle without the level R at which its feed begins; controls of Fanuc's kind run it.
+    if (!has_level.value_or(true)) return Dialect::fanuc;
     return std::nullopt;
 }
 

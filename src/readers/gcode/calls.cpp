@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace tribo::readers::gcode {
 namespace {
@@ -65,7 +66,16 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
         }
         return returned;
     }
-    const bool is_local = code.tenths == 970;
+    bool is_local = code.tenths == 970;
+    // Fanuc 30i: M98 Q100 runs lines of this program from N100 on, M98 P1000 Q100 begins there in O1000.
+    const Word* from =
+        !is_local && output.options.dialect == GcodeDialect::fanuc ? command.use('Q') : nullptr;
+    if (from != nullptr && !is_whole(*from, 1))
+        return output.refuse(line, from->column, "M98 Q is not the number of a line", "correct Q");
+    if (number == nullptr && from != nullptr) {
+        is_local = true;
+        number = std::exchange(from, nullptr);
+    }
     if (number == nullptr || !is_whole(*number, 1)) {
         return output.refuse(line, number == nullptr ? code.column : number->column,
                              code_text('M', code.tenths) + " needs the number of a " +
@@ -79,11 +89,11 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
         const auto left_out = leave_out(*number, line, state, flow, output);
         if (!left_out || *left_out) return left_out;
     }
-    const Word* last = is_local ? command.use('Q') : nullptr;
+    const Word* last = code.tenths == 970 ? command.use('Q') : nullptr;
     if (last != nullptr && !is_whole(*last, 1))
         return output.refuse(line, last->column, "M97 Q is not the number of a line", "correct Q");
-    const auto called =
-        is_local ? flow.call_lines(*number, last, *times, line) : flow.call_program(*number, *times, line);
+    const auto called = is_local ? flow.call_lines(*number, last, *times, line, code_text('M', code.tenths))
+                                 : flow.call_program(*number, *times, line, nullptr, from);
     if (!called) return std::unexpected(called.error());
     return true;
 }

@@ -309,8 +309,8 @@ Result<bool> Flow::has_program(const Word& number) {
     return labels_->find_program(std::to_string(static_cast<std::int64_t>(number.value))) >= 0;
 }
 
-Result<void> Flow::call_program(const Word& number, std::int64_t times, int line,
-                                const Arguments* arguments) {
+Result<void> Flow::call_program(const Word& number, std::int64_t times, int line, const Arguments* arguments,
+                                const Word* from) {
     if (auto known = require_labels(); !known) return known;
     const auto value = static_cast<std::int64_t>(number.value);
     std::string label = std::to_string(value);
@@ -337,6 +337,17 @@ Result<void> Flow::call_program(const Word& number, std::int64_t times, int line
     }
     Call call;
     call.entry = (*labels_)[program].after;
+    if (from != nullptr) {
+        if (auto known = require_places(); !known) return known;
+        const int first = static_cast<int>(from->value);
+        const TextLines* place = places_->find_number(first, call.entry.number());
+        if (place == nullptr) {
+            return refuse(line, from->column,
+                          "M98 begins at N" + std::to_string(first) + ", which O" + label + " lacks",
+                          "write the number of one of its lines");
+        }
+        call.entry = *place;
+    }
     call.name = "O" + label;
     call.times_left = times - 1;
     call.is_program = true;

@@ -31,16 +31,19 @@ class Flow {
     // Runs a macro block that the lexer has just read.
     Result<void> run_macro(const Block& block);
 
-    // M98: runs the program of that number, `times` times. G65: with variables of its own.
+    // M98: runs the program of that number, `times` times, each time from its line N of `from` on if that is
+    // given. G65: with variables of its own.
     using Arguments = std::array<double, kMacroParameters>;
     Result<void> call_program(const Word& number, std::int64_t times, int line,
-                              const Arguments* arguments = nullptr);
+                              const Arguments* arguments = nullptr, const Word* from = nullptr);
     // True if the text has the program of that number.
     Result<bool> has_program(const Word& number);
     // True if the program has a line of that number.
     Result<bool> has_lines(const Word& number, int line);
-    // M97: the same for lines of this program, from N to M99, or to the line N of `last`.
-    Result<void> call_lines(const Word& number, const Word* last, std::int64_t times, int line);
+    // M97, M98 Q: the same for lines of this program, from N to M99, or to the line N of `last`. `code` is
+    // the text of the calling code.
+    Result<void> call_lines(const Word& number, const Word* last, std::int64_t times, int line,
+                            const std::string& code);
     // Returns from the calls whose last line has just run.
     Result<void> leave_lines();
     // M99. Returns false if no program has called this one. `to`: the line N that it returns to, or null.

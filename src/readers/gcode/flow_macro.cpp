@@ -76,13 +76,14 @@ Result<bool> Flow::has_lines(const Word& number, int line) {
     return places_->find_number(static_cast<int>(number.value), line) != nullptr;
 }
 
-Result<void> Flow::call_lines(const Word& number, const Word* last, std::int64_t times, int line) {
+Result<void> Flow::call_lines(const Word& number, const Word* last, std::int64_t times, int line,
+                              const std::string& code) {
     if (auto known = require_places(); !known) return known;
     const int wanted = static_cast<int>(number.value);
     const TextLines* entry = places_->find_number(wanted, line);
     if (entry == nullptr) {
         return refuse(line, number.column,
-                      "M97 calls N" + std::to_string(wanted) + ", which this program lacks",
+                      code + " calls N" + std::to_string(wanted) + ", which this program lacks",
                       "write N" + std::to_string(wanted) + " before the first line of the subprogram");
     }
     Call call;

@@ -261,7 +261,7 @@ class ProgramReader {
         if (calls) {
             command.use('P');
             command.use('L');
-            if (command.m(MGroup::subprogram)->tenths == 970) command.use('Q');
+            if (command.m(MGroup::subprogram)->tenths == 970 || parameters_.is_fanuc()) command.use('Q');
         }
         pass_unknown_codes(command, output_);
         if (auto done = pass_unused_words(command, state_, output_); !done)

@@ -59,9 +59,10 @@ struct WorkSystem {
 
 // The canned cycle in force, with the words that stay until they are written again.
 struct Cycle {
-    int tenths = 0;                              // 810 for G81; 0: none
-    int line = 0;                                // line of its code
-    std::optional<double> depth_mm, retract_mm;  // Z and R as written: absolute, or increments in G91
+    int tenths = 0;                                                 // 810 for G81; 0: none
+    int line = 0;                                                   // line of its code
+    std::optional<double> depth_mm, retract_mm;                     // Z and R as written
+    bool depth_is_increment = false, retract_is_increment = false;  // they were written in G91
     std::optional<double> peck_mm, dwell_s;
     // I J K of Haas controls: the first peck, what each later one is shorter by, and the shortest.
     std::optional<double> first_peck_mm, peck_step_mm, least_peck_mm;

@@ -45,9 +45,10 @@ Result<void> Interpreter::move(const Words& words) {
     if (motion_ == Motion::bspline || motion_ == Motion::spline) return add_to_spline(words, to);
     std::optional<motion::Arc> arc;
     if (is_arc && !words.positions) {
-        if (turns_) {
-            return path_.refuse(place(words.first_column), "the tool or a rotary axis turns along a circle",
-                                "let the CAM system write short lines");
+        // A machine turns its axes evenly along the circle (Job Planning 02/2011, 6.2.3).
+        if (turns_ && !path_.machine) {
+            return path_.refuse(place(words.first_column), "the tool turns along a circle",
+                                "name the machine, or let the CAM system write short lines");
         }
         const auto found = circle(words, to);
         if (!found) return std::unexpected(found.error());

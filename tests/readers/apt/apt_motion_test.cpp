@@ -29,6 +29,7 @@ TEST(AptMotion, CirclesTurnAboutTheirAxisToTheNextPoint) {
     const double r = 10, q = 10 / std::sqrt(2.0);
     const std::string from = "FROM/10,0,0\n";
     expect_arc(from + "CIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\n", {q, q, 0}, 0.5 * kPi * r);
+    expect_arc(from + "CIRCLE/0,0,0,0,0,1\nGOTO/0,10,0\n", {q, q, 0}, 0.5 * kPi * r);
     expect_arc(from + "CIRCLE/0,0,0,0,0,-2,10\nGOTO/0,10,0\n", {-q, -q, 0}, 1.5 * kPi * r);
     // Creo's blanks and continuation; NX's tolerances.
     expect_arc(from + "CIRCLE / 0., 0., 0., $\n0., 0., 1., 10.\nGOTO / 0., 10., 0.\n", {q, q, 0},

@@ -14,7 +14,8 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
     const Refusal refusals[] = {
         {"UNITS/MM\nCIRCLE/0,0,0,0,0,1,5\n", 2, 1, "a circle before any point"},
         {at + "CIRCLE/0,0,0,5\n", 4, 1, "'CIRCLE' without centre, axis and radius"},
-        {at + "CIRCLE/0,0,0,0,0,1\n", 4, 1, "without centre, axis and radius"},
+        {at + "CIRCLE/0,0,0,0,0\n", 4, 1, "without centre, axis and radius"},
+        {at + "CIRCLE/10,0,5,0,0,1\n", 4, 1, "a circle without a radius"},
         {at + "CIRCLE/0,0,0,0,0,0,5\n", 4, 14, "the direction has no length"},
         {at + "CIRCLE/0,0,0,0,0,1,0\n", 4, 20, "without a radius"},
         {at + "CIRCLE/0,0,0,0,0,1,-5\n", 4, 20, "'-5' is out of range"},

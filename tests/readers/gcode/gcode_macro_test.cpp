@@ -74,6 +74,21 @@ TEST(GcodeMacro, CallsLinesAndRepeats) {
     EXPECT_DOUBLE_EQ(feed_of("G91\nM98 P30009\nM30\nO0009\nX2\nM99\n"), 6);  // three times O9
     EXPECT_DOUBLE_EQ(feed_of("M98 P9\nX50\nN7 X5\nM30\nO9\nM99 P7\n"), 5);
     EXPECT_DOUBLE_EQ(feed_of("M98 P100\nM30\n:0100\nX5\nM99\n"), 5);
+    // Q: from a line of this program on, or of the called one.
+    EXPECT_DOUBLE_EQ(feed_of("G91\nM98 Q100 L3\nM30\nN100 X2\nM99\n"), 6);
+    EXPECT_DOUBLE_EQ(feed_of("G91\nM98 P9 Q20 L2\nM30\nN20 X50\nO9\nX60\nN20 X3\nM99\n"), 6);
+}
+
+// Custom macro B: two letters of a word are enough.
+TEST(GcodeMacro, KnowsWordsByTheirFirstTwoLetters) {
+    EXPECT_DOUBLE_EQ(feed_of("G91\n#1=0\nWH[#1LT3]DO1\nX1\n#1=#1+1\nEN1\n"), 3);
+    EXPECT_DOUBLE_EQ(feed_of("IF[1EQ1]GO20\nX50\nN20 X5\n"), 5);
+    EXPECT_DOUBLE_EQ(feed_of("GO 20\nX50\nN20 X5\n"), 5);
+    EXPECT_DOUBLE_EQ(end_x("X[SQ[16]+RO[2.6]+FI[1.7]+FU[1.2]+AB[-3]]\n"), 4 + 3 + 1 + 2 + 3);
+    EXPECT_NEAR(end_x("X[10*[SI[30]+CO[60]+TA[45]]]\n"), 20, 1e-9);
+    EXPECT_NEAR(end_x("X[AS[0.5]+AC[0.5]+AT[1]/[1]]\n"), 30 + 60 + 45, 1e-9);
+    // In other dialects they are no words.
+    EXPECT_FALSE(read_gcode("G21 G90\nG0 X[SQ[16]]\n").has_value());
 }
 
 TEST(GcodeMacro, ComputesAsAFanucControl) {

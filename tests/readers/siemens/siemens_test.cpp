@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "motion/algebra/direction.hpp"
 #include "readers/refusals.hpp"
 #include "readers/siemens/siemens_text.hpp"
 
@@ -218,6 +220,32 @@ TEST(Siemens, SwivelsPlanes) {
         expect_near(end_of(program), c.end, 1e-12);
         expect_near(program.moves.back().end.axis, c.axis, 1e-12);
     }
+}
+
+TEST(Siemens, TurnsTheToolAlongACircleOnAMachine) {
+    const motion::Machine machine = *motion::named_machine("head-table");
+    GcodeOptions options;
+    options.machine = &machine;
+    const std::string text =
+        "TRAORI\nG0 X10 Y0 Z0 A3=0 B3=0 C3=1\nG3 X-10 Y0 CR=10 A3=0 B3=0.6 C3=0.8 F500\n";
+    const motion::Program program = siemens(text, options);
+    for (const motion::Move& m : program.moves) {
+        if (m.kind != motion::MoveKind::feed) continue;
+        for (const Vec3 tip : {m.start.tip_mm, pose_at(m, 0.5).tip_mm, m.end.tip_mm})
+            EXPECT_NEAR(std::hypot(tip.x, tip.y), 10, 1e-3);
+        EXPECT_NEAR(m.end.tip_mm.z, 0, 1e-9);
+    }
+    EXPECT_NEAR(feed_mm(program), 10 * std::numbers::pi, 1e-3);
+    expect_near(end_of(program), {-10, 0, 0}, 1e-9);
+    expect_near(program.moves.back().end.axis, {0, 0.6, 0.8}, 1e-9);
+    // Half of the turn at half of the way.
+    const auto& middle = *std::ranges::min_element(program.moves, {}, [](const motion::Move& m) {
+        return m.kind == motion::MoveKind::feed ? distance(m.end.tip_mm, {0, 10, 0}) : 1e9;
+    });
+    EXPECT_NEAR(motion::angle_rad(middle.end.axis, {0, 0, 1}), 0.5 * std::acos(0.8), 0.02);
+    const auto refused = read_siemens(std::string(kStart) + text, {});
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().text().find("the tool turns along a circle"), std::string::npos);
 }
 
 TEST(Siemens, TurnsTheToolByAngles) {

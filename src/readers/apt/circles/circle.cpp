@@ -69,21 +69,30 @@ Result<Circle> read_circle(const Statement& statement, Path& path, Report& repor
         radius = find_word(statement, "RADIUS") + 1;
         rest = std::max({centre + 3, axis + 3, radius + 1});
     }
-    if (centre + 3 > count || axis + 3 > count || radius + 1 > count) return refuse_form(statement, report);
+    // Without a radius the circle leads through the place of the tool.
+    const bool is_through_tool = count == 6 && path.place();
+    if (centre + 3 > count || axis + 3 > count || (radius + 1 > count && !is_through_tool))
+        return refuse_form(statement, report);
     Circle circle;
     circle.at = statement.word;
     const auto point = path.read_point(statement, centre);
     if (!point) return std::unexpected(point.error());
     const auto direction = path.read_direction(statement, axis);
     if (!direction) return std::unexpected(direction.error());
-    const auto r = report.number(statement.items[radius], lengths(path.settings.unit_mm));
-    if (!r) return std::unexpected(r.error());
     const Frame& frame = path.frames.to_program();
     circle.centre_mm = frame.point(*point);
     circle.normal = normalized(frame.turn(*direction));
-    circle.radius_mm = *r * path.settings.unit_mm;
-    if (circle.radius_mm <= kOnCircleMm)
-        return report.refuse(statement.items[radius], "a circle without a radius", kCorrect);
+    if (is_through_tool) {
+        circle.radius_mm = distance_from_axis(circle, path.place()->tip_mm);
+    } else {
+        const auto r = report.number(statement.items[radius], lengths(path.settings.unit_mm));
+        if (!r) return std::unexpected(r.error());
+        circle.radius_mm = *r * path.settings.unit_mm;
+    }
+    if (circle.radius_mm <= kOnCircleMm) {
+        return report.refuse(is_through_tool ? statement.word : statement.items[radius],
+                             "a circle without a radius", kCorrect);
+    }
     if (auto ok = read_rest(statement, rest, circle, report); !ok) return std::unexpected(ok.error());
     return circle;
 }

@@ -23,6 +23,7 @@ struct Circle {
 
 // Spellings:
 //   CIRCLE/x,y,z,i,j,k,r            ISO 4343, Creo; NX adds tolerances
+//   CIRCLE/x,y,z,i,j,k              SOLIDWORKS CAM: through the place of the tool
 //   MOVARC/x,y,z,i,j,k,r,ANGLE,a    exporters of Autodesk; may have TIMES,n
 //   MOVARC/CENTER,x,y,z,AXIS,i,j,k,RADIUS,r
 Result<Circle> read_circle(const Statement& statement, Path& path, Report& report);

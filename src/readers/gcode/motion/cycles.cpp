@@ -106,12 +106,13 @@ class Run {
         Cycle& cycle = state_.cycle;
         if (!cycle.initial_mm) cycle.initial_mm = state_.tip_mm[axis_];
         const double origin = state_.origin_mm()[axis_];
-        // In G91, R is relative to the start of the cycle, and Z to R.
-        const double retract = !cycle.retract_mm    ? *cycle.initial_mm
-                               : state_.incremental ? *cycle.initial_mm + scale() * *cycle.retract_mm
-                                                    : origin + level(*cycle.retract_mm);
-        const double depth =
-            state_.incremental ? retract + scale() * *cycle.depth_mm : origin + level(*cycle.depth_mm);
+        // An increment R counts from the start of the cycle, an increment Z from R.
+        const double retract = !cycle.retract_mm ? *cycle.initial_mm
+                               : is_increment(cycle.retract_is_increment)
+                                   ? *cycle.initial_mm + scale() * *cycle.retract_mm
+                                   : origin + level(*cycle.retract_mm);
+        const double depth = is_increment(cycle.depth_is_increment) ? retract + scale() * *cycle.depth_mm
+                                                                    : origin + level(*cycle.depth_mm);
         if (depth > retract && cycle.tenths == 870) {
             return output_.refuse(
                 command_.line(), cycle_column(),
@@ -157,13 +158,18 @@ class Run {
         state_.tip_mm = target->tip_mm;
         state_.known = target->known;
         const auto depth_axis = static_cast<std::size_t>(axis_);
-        if (state_.known[depth_axis] == Known::lost && !state_.incremental && state_.cycle.retract_mm) {
+        if (state_.known[depth_axis] == Known::lost && state_.cycle.retract_mm &&
+            !is_increment(state_.cycle.retract_is_increment)) {
             state_.tip_mm[axis_] = level(*state_.cycle.retract_mm) + state_.origin_mm()[axis_];
             state_.known[depth_axis] = Known::yes;
         }
         return state_.knows_tip();
     }
 
+    // LinuxCNC reads a stored Z or R by the mode of each block, Fanuc by that in which it was written.
+    bool is_increment(bool was_written_so) const {
+        return output_.options.dialect == GcodeDialect::linuxcnc ? state_.incremental : was_written_so;
+    }
     double level(double written) const { return state_.frame.placed_level(written, axis_); }
     double scale() const { return state_.frame.scale[axis_]; }
 
@@ -191,8 +197,12 @@ class Run {
         // The word of the cycle axis is the depth, not a target of the tip.
         const auto depth = coordinate_mm(command_, axis_, state_, output_);
         if (!depth) return std::unexpected(depth.error());
-        if (*depth) cycle.depth_mm = *depth;
+        if (*depth) {
+            cycle.depth_mm = *depth;
+            cycle.depth_is_increment = state_.incremental;
+        }
         command_.hide("XYZ"[axis_]);
+        if (command_.has_any("R")) cycle.retract_is_increment = state_.incremental;
         if (auto done = read_length('R', cycle.retract_mm); !done) return done;
         if (may_peck() || cycle.tenths == 760 || cycle.tenths == 870) {
             if (auto done = read_length('Q', cycle.peck_mm); !done) return done;

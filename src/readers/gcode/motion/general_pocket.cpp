@@ -107,7 +107,8 @@ Result<void> begin_pocket(Command& command, State& state, Flow& flow, Output& ou
     pocket.depth = flow.depth();
     const auto is_line = flow.has_lines(*number, line);
     if (!is_line) return std::unexpected(is_line.error());
-    auto called = *is_line ? flow.call_lines(*number, nullptr, 1, line) : flow.call_program(*number, 1, line);
+    auto called =
+        *is_line ? flow.call_lines(*number, nullptr, 1, line, "G150") : flow.call_program(*number, 1, line);
     // A program that is sought in a file beside: nothing was called.
     if (called && flow.depth() > pocket.depth) state.pocket = std::move(pocket);
     return called;

@@ -54,6 +54,7 @@ constexpr Named<Function> kFunctions[] = {
     {"LN", Function::ln},     {"POW", Function::pow},   {"ROUND", Function::round},
     {"SIN", Function::sin},   {"SQRT", Function::sqrt}, {"TAN", Function::tan},
 };
+constexpr std::size_t kAbbreviation = 2;
 // If two names start alike, the longer one comes first.
 constexpr Named<Operator> kOperators[] = {
     {"**", Operator::power}, {"*", Operator::times}, {"/", Operator::over},   {"MOD", Operator::modulo},
@@ -233,13 +234,28 @@ class ExpressionReader {
         }
     }
 
+    // Fanuc controls know a function by the first two letters before its bracket, too.
+    bool is_abbreviated(std::string_view name) const {
+        Cursor ahead = cursor_;
+        if (!parameters_.is_fanuc() || !stands_here(ahead, name.substr(0, kAbbreviation))) return false;
+        ahead.at += kAbbreviation;
+        return ahead.peek_after_blanks() == '[';
+    }
+
     Result<double> function() {
         const std::size_t start = cursor_.at;
         const Named<Function>* found = nullptr;
+        std::size_t length = 0;
         for (const auto& named : kFunctions) {
-            if (stands_here(cursor_, named.name)) found = &named;
+            if (stands_here(cursor_, named.name)) {
+                found = &named;
+                length = named.name.size();
+            } else if (found == nullptr && is_abbreviated(named.name)) {
+                found = &named;
+                length = kAbbreviation;
+            }
         }
-        if (found != nullptr) cursor_.at += found->name.size();
+        cursor_.at += length;
         if (found == nullptr || cursor_.peek_after_blanks() != '[') {
             return cursor_.refuse(start, "this is neither a number nor a function with its [argument]",
                                   "use ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN");

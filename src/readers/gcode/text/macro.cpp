@@ -27,6 +27,17 @@ bool take(Cursor& cursor, std::string_view word) {
     return true;
 }
 
+// The same for a word or its two letters, which Fanuc controls know, too. A number stands behind the letters.
+bool take(Cursor& cursor, std::string_view word, std::string_view letters) {
+    if (take(cursor, word)) return true;
+    Cursor ahead = cursor;
+    if (!take(ahead, letters)) return false;
+    const char next = ahead.peek_after_blanks();
+    if (!is_digit(next) && next != '#' && next != '[') return false;
+    cursor = ahead;
+    return true;
+}
+
 Result<int> read_number(Cursor& cursor, const Parameters& parameters, std::size_t start) {
     const auto value = read_value(cursor, parameters);
     if (!value) return std::unexpected(value.error());
@@ -77,10 +88,10 @@ Result<MacroStatement> read_macro_statement(Cursor& cursor, const Parameters& pa
         cursor.at = cursor.line.size();
         return MacroStatement{MacroKind::print, true, 0};
     }
-    if (take(cursor, "GOTO")) return numbered(MacroKind::jump, true, cursor, parameters, start);
-    if (take(cursor, "END")) return numbered(MacroKind::end, true, cursor, parameters, start);
+    if (take(cursor, "GOTO", "GO")) return numbered(MacroKind::jump, true, cursor, parameters, start);
+    if (take(cursor, "END", "EN")) return numbered(MacroKind::end, true, cursor, parameters, start);
     if (take(cursor, "DO")) return numbered(MacroKind::loop, true, cursor, parameters, start);
-    const bool is_while = take(cursor, "WHILE");
+    const bool is_while = take(cursor, "WHILE", "WH");
     if (!is_while && !take(cursor, "IF")) return MacroStatement{};
     const auto holds = read_condition(cursor, parameters, start);
     if (!holds) return std::unexpected(holds.error());
@@ -88,7 +99,7 @@ Result<MacroStatement> read_macro_statement(Cursor& cursor, const Parameters& pa
         if (take(cursor, "DO")) return numbered(MacroKind::loop, *holds, cursor, parameters, start);
         return cursor.refuse(cursor.at, "WHILE without DO", "write WHILE [...] DO1, and END1 after the loop");
     }
-    if (take(cursor, "GOTO")) return numbered(MacroKind::jump, *holds, cursor, parameters, start);
+    if (take(cursor, "GOTO", "GO")) return numbered(MacroKind::jump, *holds, cursor, parameters, start);
     if (!take(cursor, "THEN") && cursor.peek_after_blanks() != '#') {
         return cursor.refuse(cursor.at, "IF without GOTO or THEN",
                              "write IF [...] GOTO 100, or IF [...] THEN");
@@ -118,7 +129,7 @@ Result<MacroPlaces> MacroPlaces::of(std::string_view bytes, const std::string& s
             places.numbers_[*number].push_back({lines.number(), at});
             ++count;
         }
-        if (take(cursor, "END")) {
+        if (take(cursor, "END", "EN")) {
             const auto number = take_digits(cursor);
             if (!number) continue;
             places.ends_[*number].push_back({lines.number(), lines});
