@@ -374,7 +374,10 @@ Result<std::shared_ptr<const Head>> Head::measured(const HrirSet& set, double sa
                                          : magnitude(made.taps[ear], hz, sample_rate_hz);
                     });
             }
-            made = phase.split(spectra[0], spectra[1]);
+            if (pass == 0)
+                made.taps = phase.filters(spectra[0], spectra[1]);
+            else
+                made = phase.split(spectra[0], spectra[1]);
         }
         by_direction.push_back(made);
         for (std::size_t ear = 0; ear < 2; ++ear) {

@@ -16,6 +16,8 @@ using Complex = std::complex<double>;
 constexpr double kDeepestNotch = 1e-4;
 // The last taps fade out over this many.
 constexpr int kFadeTaps = 24;
+// Levels are compared at this frequency, and put right by a ring that falls to 1/e in so many taps.
+constexpr double kLevelHz = 1000, kRingTaps = 24;
 
 // std::complex's own product may call a library function that tests for infinities.
 Complex product(Complex a, Complex b) {
@@ -72,31 +74,45 @@ std::array<double, 4> cubic_weights(double t) {
 FourierTransform::FourierTransform(int log2_size) {
     assert(log2_size >= 1 && log2_size <= 20);
     const std::size_t size = std::size_t{1} << log2_size;
-    turn_.resize(size);
+    cosine_.resize(size);
+    sine_.resize(size);
     reversed_.assign(size, 0);
+    for (std::size_t half = 1; half < size; half *= 2) {
+        for (std::size_t k = 0; k < half; ++k) {
+            const double turn = math::kTwoPi * static_cast<double>(k) / static_cast<double>(2 * half);
+            math::sincos(turn, sine_[half + k], cosine_[half + k]);
+        }
+    }
     for (std::size_t k = 0; k < size; ++k) {
-        double sine, cosine;
-        math::sincos(math::kTwoPi * static_cast<double>(k) / static_cast<double>(size), sine, cosine);
-        turn_[k] = {cosine, -sine};
         for (int b = 0; b < log2_size; ++b) reversed_[k] |= (k >> b & 1) << (log2_size - 1 - b);
     }
 }
 
 void FourierTransform::forward(std::span<Complex> x) const {
     assert(x.size() == size());
+    // Real and imaginary parts apart: several butterflies at once.
+    std::vector<double> re(size()), im(size());
     for (std::size_t k = 0; k < size(); ++k) {
-        if (k < reversed_[k]) std::swap(x[k], x[reversed_[k]]);
+        re[k] = x[reversed_[k]].real();
+        im[k] = x[reversed_[k]].imag();
     }
     for (std::size_t half = 1; half < size(); half *= 2) {
-        const std::size_t stride = size() / (2 * half);
+        const double* cosine = cosine_.data() + half;
+        const double* sine = sine_.data() + half;
         for (std::size_t block = 0; block < size(); block += 2 * half) {
+            double *re_a = re.data() + block, *re_b = re_a + half;
+            double *im_a = im.data() + block, *im_b = im_a + half;
             for (std::size_t k = 0; k < half; ++k) {
-                const Complex a = x[block + k], b = product(turn_[k * stride], x[block + k + half]);
-                x[block + k] = {a.real() + b.real(), a.imag() + b.imag()};
-                x[block + k + half] = {a.real() - b.real(), a.imag() - b.imag()};
+                const double re_turned = cosine[k] * re_b[k] + sine[k] * im_b[k];
+                const double im_turned = cosine[k] * im_b[k] - sine[k] * re_b[k];
+                re_b[k] = re_a[k] - re_turned;
+                im_b[k] = im_a[k] - im_turned;
+                re_a[k] += re_turned;
+                im_a[k] += im_turned;
             }
         }
     }
+    for (std::size_t k = 0; k < size(); ++k) x[k] = {re[k], im[k]};
 }
 
 void FourierTransform::inverse(std::span<Complex> x) const {
@@ -113,12 +129,19 @@ MinimumPhase::MinimumPhase(double sample_rate_hz)
                : sample_rate_hz > 48000 ? 12
                                         : 11) {
     work_.resize(fourier_.size());
+    for (std::size_t k = 0; k < kHeadTaps; ++k) {
+        ring_sum_ += ring_fall_[k] = math::exp(-static_cast<double>(k) / kRingTaps);
+        math::sincos(math::kTwoPi * kLevelHz / sample_rate_hz_ * static_cast<double>(k), ring_sine_[k],
+                     ring_cosine_[k]);
+    }
+    ring_mirror_ = response(ring_fall_, 2 * kLevelHz);
 }
 
 // By the cepstrum (Oppenheim and Schafer, Discrete-Time Signal Processing, section 13.3): the logarithm of
 // the magnitude is the real part of the logarithm of a causal, invertible response; its negative times fold
 // onto the positive ones. Left and right go as real and imaginary part through every transform.
-EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const Complex> right) {
+std::array<MinimumPhase::Taps, 2> MinimumPhase::shorten(std::span<const Complex> left,
+                                                        std::span<const Complex> right) {
     assert(left.size() == bins() && right.size() == bins());
     const std::size_t n = fourier_.size(), half = n / 2;
     double loudest[2] = {1e-300, 1e-300};
@@ -156,7 +179,6 @@ EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const 
     }
     fourier_.inverse(work_);
 
-    EarResponses out;
     std::array<Taps, 2> both;
     for (std::size_t ear = 0; ear < 2; ++ear) {
         const auto spectrum = ear == 0 ? left : right;
@@ -178,10 +200,26 @@ EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const 
             kept = 0;
             for (const double v : taps) kept += v * v;
         }
-        for (std::size_t k = 0; k < kHeadTaps; ++k) out.taps[ear][k] = static_cast<float>(taps[k]);
-        out.delay_s[ear] = delay_behind(spectrum, taps);
     }
-    keep_arrival_offset(left, right, both, out.delay_s);
+    return both;
+}
+
+std::array<HeadTaps, 2> MinimumPhase::filters(std::span<const Complex> left, std::span<const Complex> right) {
+    return rounded(shorten(left, right));
+}
+
+EarResponses MinimumPhase::split(std::span<const Complex> left, std::span<const Complex> right) {
+    const std::array<Taps, 2> taps = shorten(left, right);
+    EarResponses out{rounded(taps), {delay_behind(left, taps[0]), delay_behind(right, taps[1])}};
+    keep_arrival_offset(left, right, taps, out.delay_s);
+    return out;
+}
+
+std::array<HeadTaps, 2> MinimumPhase::rounded(const std::array<Taps, 2>& taps) {
+    std::array<HeadTaps, 2> out;
+    for (std::size_t ear = 0; ear < 2; ++ear) {
+        for (std::size_t k = 0; k < kHeadTaps; ++k) out[ear][k] = static_cast<float>(taps[ear][k]);
+    }
     return out;
 }
 
@@ -197,35 +235,26 @@ Complex MinimumPhase::response(const Taps& taps, double hz) const {
 // 128 taps see 375 Hz as one; at 1 kHz, where levels are compared, they are put right by a short ring of that
 // frequency, in phase with what is there.
 void MinimumPhase::keep_level(std::span<const Complex> spectrum, Taps& taps) const {
-    constexpr double kHz = 1000, kRingTaps = 24;
-    const double place = kHz / bin_hz(), share = place - std::floor(place);
+    const double place = kLevelHz / bin_hz(), share = place - std::floor(place);
     const auto at = static_cast<std::size_t>(place);
     // A line between two bins would miss a notch by some tenths of a decibel.
     const std::array<double, 4> weight = cubic_weights(share);
     double power = 0;
     for (std::size_t n = 0; n < 4; ++n) power += weight[n] * squared(spectrum[at + n - 1]);
     const double wanted = std::sqrt(std::max(power, 0.0));
-    const Complex is = response(taps, kHz);
+    const Complex is = response(taps, kLevelHz);
     const double size = std::sqrt(squared(is));
     if (!(size > 0)) return;
     const double more = std::clamp(wanted / size, 0.5, 2.0) - 1;
     const Complex missing{more * is.real(), more * is.imag()};
     // ring(k) = e^(-k / kRingTaps) Re(a e^(i w k)) has the transform (a sum e^(-k/r) + conj(a) mirror) / 2.
-    std::array<double, kHeadTaps> fall;
-    double sum = 0;
-    for (std::size_t k = 0; k < kHeadTaps; ++k)
-        sum += fall[k] = math::exp(-static_cast<double>(k) / kRingTaps);
-    const Complex mirror = response(fall, 2 * kHz);
-    Complex a{2 * missing.real() / sum, 2 * missing.imag() / sum};
+    Complex a{2 * missing.real() / ring_sum_, 2 * missing.imag() / ring_sum_};
     for (int round = 0; round < 8; ++round) {
-        const Complex m = product({a.real(), -a.imag()}, mirror);
-        a = {(2 * missing.real() - m.real()) / sum, (2 * missing.imag() - m.imag()) / sum};
+        const Complex m = product({a.real(), -a.imag()}, ring_mirror_);
+        a = {(2 * missing.real() - m.real()) / ring_sum_, (2 * missing.imag() - m.imag()) / ring_sum_};
     }
-    for (std::size_t k = 0; k < kHeadTaps; ++k) {
-        double sine, cosine;
-        math::sincos(math::kTwoPi * kHz / sample_rate_hz_ * static_cast<double>(k), sine, cosine);
-        taps[k] += fall[k] * (a.real() * cosine - a.imag() * sine);
-    }
+    for (std::size_t k = 0; k < kHeadTaps; ++k)
+        taps[k] += ring_fall_[k] * (a.real() * ring_cosine_[k] - a.imag() * ring_sine_[k]);
 }
 
 // Where ears compare phases.

@@ -17,12 +17,13 @@ namespace tribo::sound {
 class FourierTransform {
   public:
     explicit FourierTransform(int log2_size);
-    std::size_t size() const { return turn_.size(); }
+    std::size_t size() const { return reversed_.size(); }
     void forward(std::span<std::complex<double>> x) const;
     void inverse(std::span<std::complex<double>> x) const;
 
   private:
-    std::vector<std::complex<double>> turn_;  // e^{-2 pi i k / size}
+    // Of the angle 2 pi k / (2 half), at [half + k]: one row behind the other for each size of butterflies.
+    std::vector<double> cosine_, sine_;
     std::vector<std::size_t> reversed_;
 };
 
@@ -51,9 +52,15 @@ class MinimumPhase {
     // interaural delay: the peak of the cross-correlation of the ears in this band.
     EarResponses split(std::span<const std::complex<double>> left,
                        std::span<const std::complex<double>> right);
+    // The filters alone.
+    std::array<HeadTaps, 2> filters(std::span<const std::complex<double>> left,
+                                    std::span<const std::complex<double>> right);
 
   private:
     using Taps = std::array<double, kHeadTaps>;
+    std::array<Taps, 2> shorten(std::span<const std::complex<double>> left,
+                                std::span<const std::complex<double>> right);
+    static std::array<HeadTaps, 2> rounded(const std::array<Taps, 2>& taps);
     std::complex<double> response(const Taps& taps, double hz) const;
     void keep_level(std::span<const std::complex<double>> spectrum, Taps& taps) const;
     double delay_behind(std::span<const std::complex<double>> spectrum, const Taps& taps) const;
@@ -66,6 +73,10 @@ class MinimumPhase {
     double sample_rate_hz_;
     FourierTransform fourier_;
     std::vector<std::complex<double>> work_;
+    // The ring that puts the level right: its fall, its wave, and its transform at its frequency and beyond.
+    Taps ring_fall_{}, ring_cosine_{}, ring_sine_{};
+    double ring_sum_ = 0;
+    std::complex<double> ring_mirror_;
 };
 
 }  // namespace tribo::sound
