@@ -258,6 +258,18 @@ class CycleReader {
 
 }  // namespace
 
+void change_words(const Statement& on, std::vector<Item>& changes) {
+    const auto is_word = [](const Item& item) { return find_word(item.text) != nullptr; };
+    for (auto at = on.items.begin() + 1; at != on.items.end();) {
+        const auto next = std::find_if(at + 1, on.items.end(), is_word);
+        const auto old =
+            std::ranges::find_if(changes, [&](const Item& item) { return matches(item.text, at->text); });
+        if (old != changes.end()) changes.erase(old, std::find_if(old + 1, changes.end(), is_word));
+        changes.insert(changes.end(), at, next);
+        at = next;
+    }
+}
+
 Result<Cycle> read_cycle(const Statement& statement, const Path& path, Report& report) {
     return CycleReader(statement, path, report).read();
 }

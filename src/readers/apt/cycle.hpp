@@ -32,6 +32,10 @@ struct Cycle {
 // in this order.
 Result<Cycle> read_cycle(const Statement& statement, const Path& path, Report& report);
 
+// CYCLE/ON with words changes the cycle that was described before it (NX): adds them to `changes`, which
+// stand behind its own words, in place of those of the same name.
+void change_words(const Statement& on, std::vector<Item>& changes);
+
 // Makes the moves of the hole at `point`: rapid to the retract height above it, rapid to the clearance, down,
 // out.
 Result<void> drill(const Cycle& cycle, const motion::ToolPose& point, const Item& at, Path& path,

@@ -129,10 +129,16 @@ Result<void> Interpreter::apply_g(Words& words, const Code& code) {
             return {};
         }
         case 20:
+        case 21:
+            if (path_.first(kUnitOfIso)) {
+                path_.warn(
+                    line_number(),
+                    "G20 and G21 are words of the ISO mode of this control: they are read as G70 and G71");
+            }
+            return choose_unit(g == 20 ? LengthUnit::inch : LengthUnit::millimetre);
         case 70:
         case 700:
             return choose_unit(LengthUnit::inch);
-        case 21:
         case 71:
         case 710:
             return choose_unit(LengthUnit::millimetre);

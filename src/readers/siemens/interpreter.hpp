@@ -33,6 +33,7 @@ using gcode::Cursor;
 // Notes with one warning per program.
 enum Note {
     kNoUnit,
+    kUnitOfIso,
     kUnstatedAxes,
     kMachinePlace,
     kSpindleOff,

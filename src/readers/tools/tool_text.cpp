@@ -21,8 +21,8 @@ using Words = std::span<const std::string_view>;
 
 constexpr std::array kToolWords{"TOOL"sv,        "WERKZEUG"sv, "WZ"sv,    "OUTIL"sv,
                                 "HERRAMIENTA"sv, "UTENSILE"sv, "CUTTER"sv};
-constexpr std::array kDiameterWords{"DIA"sv,      "DIAM"sv,        "DIAMETER"sv, "DIAMETRE"sv,
-                                    "DIAMETRO"sv, "DURCHMESSER"sv, "DIAMETR"sv,  "DMR"sv};
+constexpr std::array kDiameterWords{"DIA"sv,         "DIAM"sv,    "DIAMETER"sv, "DIAMETRE"sv, "DIAMETRO"sv,
+                                    "DURCHMESSER"sv, "DIAMETR"sv, "DMR"sv,      "FI"sv};
 constexpr std::array kCornerWords{"CR"sv, "RC"sv, "ECKENRADIUS"sv, "ECKRADIUS"sv};
 constexpr std::array kFluteWords{
     "FLUTE"sv, "FLUTES"sv, "FLUITE"sv,    "FL"sv,        "TEETH"sv, "TOOTH"sv,  "ZAHN"sv,  "ZAEHNE"sv,
@@ -117,7 +117,9 @@ class TextReader {
         if (t.kind == TextToken::Kind::word) return take_word(i);
         if (t.is_number()) return take_number(i);
         if (i == 0 && t.is_sign('#') && token(1).is_count()) {
-            set_number(token(i + 1));
+            // #14 [.182"] DRILL, #7 DRILL: the number of a wire gauge.
+            const bool is_gauge = token(2).is_sign('[') || token(2).is_sign('(') || token(2).text == "DRILL";
+            if (!is_gauge) set_number(token(i + 1));
             return 2;
         }
         return 1;

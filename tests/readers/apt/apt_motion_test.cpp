@@ -141,6 +141,28 @@ TEST(AptMotion, CyclesGoOnAtOtherPointsAndTiltedAxes) {
     EXPECT_EQ(program.moves[5].line, 12);
 }
 
+TEST(AptMotion, CyclesGoOnWithOtherWords) {
+    const std::string from = "SPINDL/1000\nFROM/0,0,50\n";
+    const std::string first = "CYCLE/DRILL,DEEP,STEP,20,CLEAR,3,FEDTO,-5,RTRCTO,AUTO,MMPM,250\nGOTO/0,0,0\n";
+    const auto expect_same = [&](const std::string& changed, const std::string& whole) {
+        const Program a = apt_in_mm(from + first + changed), b = apt_in_mm(from + first + whole);
+        ASSERT_EQ(a.moves.size(), b.moves.size());
+        for (std::size_t n = 0; n < a.moves.size(); ++n) {
+            EXPECT_EQ(a.moves[n].end.tip_mm, b.moves[n].end.tip_mm) << n;
+            EXPECT_EQ(a.moves[n].feed_mm_per_min, b.moves[n].feed_mm_per_min) << n;
+        }
+    };
+    expect_same("CYCLE/ON,FEDTO,-7,RTRCTO,AUTO\nGOTO/9,0,0\nCYCLE/ON,STEP,2,MMPM,100\nGOTO/18,0,0\n",
+                "CYCLE/DRILL,DEEP,STEP,20,CLEAR,3,FEDTO,-7,RTRCTO,AUTO,MMPM,250\nGOTO/9,0,0\n"
+                "CYCLE/DRILL,DEEP,STEP,2,CLEAR,3,FEDTO,-7,MMPM,100\nGOTO/18,0,0\n");
+    // Another cycle forgets the changes.
+    expect_same("CYCLE/ON,FEDTO,-7\nGOTO/9,0,0\nCYCLE/DRILL,FEDTO,-4,MMPM,50\nCYCLE/ON\nGOTO/18,0,0\n",
+                "CYCLE/DRILL,DEEP,STEP,20,CLEAR,3,FEDTO,-7,MMPM,250\nGOTO/9,0,0\n"
+                "CYCLE/DRILL,FEDTO,-4,MMPM,50\nGOTO/18,0,0\n");
+    expect_same("CYCLE/DRILL,8,MMPM,100,2\nCYCLE/ON,MMPM,60\nGOTO/9,0,0\n",
+                "CYCLE/DRILL,8,MMPM,60,2\nGOTO/9,0,0\n");
+}
+
 TEST(AptMotion, IncrementsHomesAndRetractions) {
     const Program program = apt_in_mm(
         "FROM/0,0,0\nGODLTA/1,2,3\nTLAXIS/0,0.6,0.8\nGOTO/1,2,3\nGODLTA/-10\nRAPID\nGODLTA/0,0,1\nCLEARP/"

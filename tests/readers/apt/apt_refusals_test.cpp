@@ -40,6 +40,7 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
         {at + "CYCLE\n", 4, 1, "CYCLE without a kind"},
         {at + "CYCLE/THREAD,5\n", 4, 7, "'THREAD' is not a cycle that is read"},
         {at + "CYCLE/ON\n", 4, 1, "before any cycle was described"},
+        {at + "CYCLE/DRILL,FEDTO,5,MMPM,9\nCYCLE/ON,FED,5\n", 5, 10, "'FED' is not known in a cycle"},
         {at + "CYCLE/DRILL\n", 4, 1, "a cycle without a depth"},
         {at + "CYCLE/DRILL,FEDTO\n", 4, 13, "a number is missing after this"},
         {at + "CYCLE/DRILL,FEDTO,deep\n", 4, 19, "'deep' is not a number"},

@@ -248,6 +248,13 @@ TEST(Siemens, TurnsTheToolAlongACircleOnAMachine) {
     EXPECT_NE(refused.error().text().find("the tool turns along a circle"), std::string::npos);
 }
 
+TEST(Siemens, SaysThatUnitsAreThoseOfAnotherMode) {
+    const motion::Program program = siemens("G20 G1 X1 F10\nG21 X26\n");
+    expect_near(end_of(program), {26, 0, 10});
+    EXPECT_NEAR(program.moves[0].end.tip_mm.x, 25.4, 1e-12);
+    EXPECT_TRUE(warns_of(program, 4, "words of the ISO mode"));
+}
+
 TEST(Siemens, TurnsTheToolByAngles) {
     const double r = std::sqrt(0.5);
     const motion::Program rpy = siemens("ORIRPY\nTRAORI\nG1 X1 F100 A2=0 B2=45 C2=90\n");

@@ -31,6 +31,13 @@ const Form kForms[] = {
     {"T4 D=6 CR=0 TAPER=45deg - ZMIN=-1 - chamfer mill", 4, chamfer, 6, 0, 0, 45, 0},
     {"#12 D=16 CR=0.8 - ZMIN=-3 - ZMAX=+10 - bull nose end mill", 12, bull, 16, 0, 0.8, 0, 0},
     // SolidWorks CAM, CAMWorks, Mastercam
+    // A wire gauge is no number of a tool.
+    {" #14 [.182\"] DRILL, CARB, TSC ", kNoNumber, drill, 0.182, 25.4, 0, 0, 0},
+    // Poland, Russia
+    {"FREZ PALCOWY FI 10", kNoNumber, flat, 10, 0, 0, 0, 0},
+    {"WIERTLO FI6", kNoNumber, drill, 6, 0, 0, 0, 0},
+    {"SVERLO D5", kNoNumber, drill, 5, 0, 0, 0, 0},
+    {"FREZ KULISTY FI8", kNoNumber, ball, 8, 0, 0, 0, 0},
     {"T04 ID=004  DIA-0.3750  TOOL END MILL", 4, flat, 0.375, 0, 0, 0, 0},
     {" T2 | 3/8 BALL ENDMILL | H2 | D2 | WEAR COMP | TOOL DIA. - .375 ", 2, ball, 0.375, 0, 0, 0, 0},
     {"3/4 FLAT ENDMILL TOOL - 5 DIA. OFF. - 5 LEN. - 5 DIA. - .75", 5, flat, 0.75, 0, 0, 0, 0},
