@@ -291,17 +291,21 @@ class AptReader {
                 return report_.refuse(statement.word, "CYCLE/ON before any cycle was described",
                                       "describe one: CYCLE/DRILL,FEDTO,10,MMPM,100,RAPTO,2");
             }
+            if (statement.items.size() == 1) {
+                cycle_ = last_cycle_;
+                return {};
+            }
             change_words(statement, cycle_changes_);
         } else {
-            last_cycle_ = statement;
+            cycle_words_ = statement;
             cycle_changes_.clear();
         }
-        Statement whole = *last_cycle_;
+        Statement whole = cycle_words_;
         whole.word = statement.word;
         whole.items.insert(whole.items.end(), cycle_changes_.begin(), cycle_changes_.end());
         const auto found = read_cycle(whole, path_, report_);
         if (!found) return std::unexpected(found.error());
-        cycle_ = *found;
+        cycle_ = last_cycle_ = *found;
         return {};
     }
 
@@ -416,8 +420,8 @@ class AptReader {
     Path path_;
     Arcs arcs_;
     Clearance clearance_;
-    std::optional<Cycle> cycle_;
-    std::optional<Statement> last_cycle_;
+    std::optional<Cycle> cycle_, last_cycle_;
+    Statement cycle_words_;            // that described a cycle
     std::vector<Item> cycle_changes_;  // by CYCLE/ON since then
     bool on_contour_ = false;          // the header of Creo says so
     bool any_known_ = false;
