@@ -86,23 +86,27 @@ describe.skipIf(!hasBrowser)("tribo-touch", () => {
     const hand = await fingers(page);
     const five = [0, 1, 2, 3, 4].map((id) => ({ id, x: 40 + 45 * id, y: 60 + 20 * (id % 2) }));
     for (let n = 1; n <= 5; ++n) await hand.touch(five.slice(0, n));
-    await frames(page, 10);
-    expect(await log(page, "contact-start")).toHaveLength(5);
-    for (let step = 0; step < 10; ++step) {
-      await hand.touch(five.map((p) => ({ ...p, y: p.y + 6 * step })));
-      await frames(page, 1);
-    }
-    expect(Math.max(...(await log(page, "contact-move")).map((e) => e.speed_mm_per_s))).toBeGreaterThan(5);
+    await expect.poll(() => log(page, "contact-start"), kPatience).toHaveLength(5);
+    const fastest = async () => Math.max(0, ...(await log(page, "contact-move")).map((e) => e.speed_mm_per_s));
+    // A busy machine may see the first rubs as single places.
+    let step = 0;
+    await expect
+      .poll(async () => {
+        for (let n = 0; n < 10; ++n, ++step) {
+          await hand.touch(five.map((p) => ({ ...p, y: p.y + 6 * (step % 20) })));
+          await frames(page, 1);
+        }
+        return fastest();
+      }, kPatience)
+      .toBeGreaterThan(5);
     await hand.cancel();
-    await frames(page, 2);
-    expect(await log(page, "contact-end")).toHaveLength(5);
+    await expect.poll(() => log(page, "contact-end"), kPatience).toHaveLength(5);
     await page.mouse.move(100, 100);
     await page.mouse.down();
     await frames(page, 20);
     await page.mouse.move(400, 500);
     await page.mouse.up();
-    await frames(page, 2);
-    expect(await log(page, "contact-end")).toHaveLength(6);
+    await expect.poll(() => log(page, "contact-end"), kPatience).toHaveLength(6);
     expect(errors).toEqual([]);
   });
 
