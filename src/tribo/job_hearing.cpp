@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tribo/job_hearing.hpp"
 
+#include <map>
+#include <mutex>
+
 #include "files/sound/hrir_file.hpp"
 #include "files/sound/sound_file.hpp"
 #include "material/material_json.hpp"
@@ -22,9 +25,31 @@ FileResult<std::shared_ptr<const sound::Recording>> recording(const std::string&
     return recording;
 }
 
-}  // namespace
-
 using Heard = std::shared_ptr<const sound::Head>;
+
+// Heads out of the built-in set, as long as somebody hears with them: two jobs of one run share one.
+class BuiltinHeads {
+  public:
+    Heard find(double rate_hz, sound::Equalization equalization) {
+        const std::lock_guard lock(mutex_);
+        return heads_[{rate_hz, equalization}].lock();
+    }
+    void keep(const Heard& head, sound::Equalization equalization) {
+        const std::lock_guard lock(mutex_);
+        heads_[{head->sample_rate_hz(), equalization}] = head;
+    }
+
+  private:
+    std::mutex mutex_;
+    std::map<std::pair<double, sound::Equalization>, std::weak_ptr<const sound::Head>> heads_;
+};
+
+BuiltinHeads& builtin_heads() {
+    static BuiltinHeads heads;
+    return heads;
+}
+
+}  // namespace
 
 FileResult<Heard> head_of(const job::JobSound& sound, int sample_rate_hz, const std::string& job_file,
                           const std::optional<SofaReader>& reader, Warnings& warnings) {
@@ -36,10 +61,15 @@ FileResult<Heard> head_of(const job::JobSound& sound, int sample_rate_hz, const 
         return std::unexpected(FileFailure({job_file, 0, 0, "the job names head responses of its own (hrtf)",
                                             "only the program reads them: take mode = \"sphere\" here"}));
     }
-    auto set = sound.hrtf.empty() ? files::builtin_hrirs()
-                                  : files::read_hrirs(sound.hrtf, reader->program, reader->verb);
+    const bool builtin = sound.hrtf.empty();
+    const auto equalization = sound.as_measured ? sound::Equalization::none : sound::Equalization::diffuse;
+    if (builtin) {
+        if (Heard head = builtin_heads().find(rate, equalization)) return head;
+    }
+    auto set =
+        builtin ? files::builtin_hrirs() : files::read_hrirs(sound.hrtf, reader->program, reader->verb);
     if (set) {
-        const std::string file = sound.hrtf.empty() ? job_file : sound.hrtf;
+        const std::string file = builtin ? job_file : sound.hrtf;
         switch (sound::ear_order(*set)) {
             case sound::EarOrder::right:
                 break;
@@ -56,12 +86,12 @@ FileResult<Heard> head_of(const job::JobSound& sound, int sample_rate_hz, const 
                      "the head responses do not tell left from right: neither ear is both earlier "
                      "and louder on the side of the source; they are taken as the file names them"});
         }
-        auto head = sound::Head::measured(
-            *set, rate, sound.as_measured ? sound::Equalization::none : sound::Equalization::diffuse);
-        if (head) return std::move(*head);
-        return std::unexpected(FileFailure(head.error()));
+        auto head = sound::Head::measured(*set, rate, equalization);
+        if (!head) return std::unexpected(FileFailure(head.error()));
+        if (builtin) builtin_heads().keep(*head, equalization);
+        return std::move(*head);
     }
-    if (!sound.hrtf.empty() || sound.mode) return std::unexpected(set.error());
+    if (!builtin || sound.mode) return std::unexpected(set.error());
     warnings.push_back({job_file, 0,
                         "the built-in head responses cannot be read (" + set.error().text() +
                             "): a sphere stands in for the head"});

@@ -4,7 +4,8 @@
 
 namespace tribo::test {
 
-// Mills `slot.nc`: a slot along y = 10, 2 mm deep.
+// Mills `slot.nc`: a slot along y = 10, 2 mm deep. Without a measured head, whose preparation takes longer
+// than the cut.
 inline constexpr const char* kSlotJob = R"(
 [stock]
 box_mm = [[0, 0, -10], [30, 20, 0]]
@@ -20,6 +21,8 @@ spindle_rpm = 6000
 feed_mm_per_min = 900
 [path]
 gcode = "slot.nc"
+[sound]
+mode = "pan"
 )";
 inline constexpr const char* kSlotProgram = "G21 G90\nG0 X-5 Y10 Z-2\nG1 X35\nM30\n";
 
