@@ -7,14 +7,17 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/text/decimal.hpp"
 #include "job/memory_source.hpp"
 #include "milling/tool/materials.hpp"
 #include "motion/machine/machine.hpp"
 #include "session/live/live_audit.hpp"
+#include "session/live/live_compare.hpp"
 #include "session/live/single_threaded_touch.hpp"
 #include "surface/part_difference.hpp"
 #include "wasm/mill_job.hpp"
@@ -36,6 +39,7 @@ struct Mill {
     std::string text;
     std::vector<double> audit_lines;
     std::array<double, 2> volumes_mm3{};
+    std::vector<double> joined;
     std::vector<std::uint8_t> frames;  // each: u32 length, u32 0, its bytes, zeros to a multiple of 8
 };
 
@@ -59,6 +63,17 @@ void keep(std::span<const std::uint8_t> frame) {
     for (unsigned n = 0; n < 8; ++n) all.push_back(n < 4 ? static_cast<std::uint8_t>(length >> (8 * n)) : 0);
     all.insert(all.end(), frame.begin(), frame.end());
     all.resize((all.size() + 7) / 8 * 8);
+}
+
+void append(const std::optional<session::CutStretch>& stretch, std::vector<double>& numbers) {
+    if (!stretch) {
+        numbers.insert(numbers.end(), 6 + session::kQuantities, std::numeric_limits<double>::quiet_NaN());
+        return;
+    }
+    const auto& [x, y, z] = stretch->tip_mm;
+    numbers.insert(numbers.end(),
+                   {stretch->from_s, stretch->to_s, static_cast<double>(stretch->line), x, y, z});
+    numbers.insert(numbers.end(), stretch->value.begin(), stretch->value.end());
 }
 
 }  // namespace
@@ -155,7 +170,7 @@ TRIBO_EXPORT(mill_audit) std::uint32_t mill_audit() {
 TRIBO_EXPORT(mill_audit_lines) const double* mill_audit_lines() {
     return mill().audit_lines.data();
 }
-// Keeps the open mill aside for mill_volumes(); then no job is open.
+// Keeps the open mill aside for mill_volumes() and mill_join(); then no job is open.
 TRIBO_EXPORT(mill_keep) void mill_keep() {
     mill().touch.reset();
     mill().controller.reset();
@@ -169,6 +184,37 @@ TRIBO_EXPORT(mill_volumes) const double* mill_volumes() {
         surface::volume_difference(mill().kept->session().stock(), mill().live->session().stock());
     mill().volumes_mm3 = {v.only_a_mm3, v.only_b_mm3};
     return mill().volumes_mm3.data();
+}
+// Joins the rows of the mill that was kept, A, with those of the open one, B, both as far as they are milled
+// (session/compare/compared_rows.hpp). Returns the number of pairs, which are at mill_joined(); mill_text()
+// says by what they are joined (session::name_of), and after a tab the width of a step, mm3 or s (0: by
+// line). Without both no pairs.
+TRIBO_EXPORT(mill_join) std::uint32_t mill_join() {
+    mill().joined.clear();
+    if (!mill().kept || !mill().live) return 0;
+    const auto cuts = session::join(session::compared_rows(*mill().kept, serial_for),
+                                    session::compared_rows(*mill().live, serial_for));
+    mill().text = std::string(session::name_of(cuts->by)) + "\t" + format_decimal(cuts->step);
+    for (const session::CutPair& pair : cuts->pairs) {
+        mill().joined.push_back(pair.place);
+        append(pair.a, mill().joined);
+        append(pair.b, mill().joined);
+    }
+    return static_cast<std::uint32_t>(cuts->pairs.size());
+}
+// Returns the pairs: of each its place, then of A and of B from_s, to_s, line, tip (x, y, z) in mm and the
+// quantities of session::kQuantityWords; NaN: not known, or nothing is cut there.
+TRIBO_EXPORT(mill_joined) const double* mill_joined() {
+    return mill().joined.data();
+}
+// Returns the quantities that are compared, one per line: name, tab, unit.
+TRIBO_EXPORT(mill_quantities) const char* mill_quantities() {
+    mill().text.clear();
+    for (const session::QuantityWords& words : session::kQuantityWords) {
+        if (!mill().text.empty()) mill().text += "\n";
+        mill().text += std::string(words.name) + "\t" + std::string(words.unit);
+    }
+    return mill().text.c_str();
 }
 // Returns all known materials, one per line.
 TRIBO_EXPORT(mill_materials) const char* mill_materials() {

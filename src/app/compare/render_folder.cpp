@@ -72,7 +72,7 @@ FileResult<void> read_forces(const std::string& folder, ComparedRun& run) {
     auto rows = readers::read_forces_csv(*text, path);
     if (!rows) return std::unexpected(FileFailure(rows.error()));
     run.rows.reserve(rows->size());
-    for (const readers::ForceTableRow& row : *rows) run.rows.push_back({row, std::nullopt});
+    for (const readers::ForceTableRow& row : *rows) run.rows.push_back({row, {}, {}});
     return {};
 }
 

@@ -26,7 +26,7 @@ class Gatherer {
         const double seconds = share * row.duration_s;
         if (is_empty_) {
             v.fill(0);
-            at(Quantity::multiplier) = at(Quantity::load) = kUnknown;
+            at(Quantity::chip) = at(Quantity::multiplier) = at(Quantity::load) = kUnknown;
             stretch_.from_s = row.start_s;
             is_empty_ = false;
         }
@@ -38,6 +38,7 @@ class Gatherer {
         raise(at(Quantity::peak_force), row.peak_xy_n);
         raise(at(Quantity::torque), std::abs(row.peak_torque_nm));
         raise(at(Quantity::depth), row.axial_depth_mm);
+        if (row.chip_mm) raise(at(Quantity::chip), *row.chip_mm);
         if (row.multiplier) raise(at(Quantity::multiplier), *row.multiplier);
         if (row.load_ratio) raise(at(Quantity::load), *row.load_ratio);
         at(Quantity::mean_force) += seconds * row.mean_n;
@@ -136,6 +137,7 @@ ComparedRow compared_row(const milling::CutRow& row, const milling::RowForce& fo
     compared.peak_xy_n = force.peaks.peak_xy_n;
     compared.peak_torque_nm = 1e-3 * force.peaks.peak_torque_nmm;
     compared.removed_mm3 = row.removed_mm3;
+    compared.chip_mm = force.chip_mm;
     compared.multiplier = multiplier;
     compared.load_ratio = load_ratio;
     return compared;

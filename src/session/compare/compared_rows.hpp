@@ -21,7 +21,9 @@
 namespace tribo::session {
 
 struct ComparedRow : readers::ForceTableRow {
-    std::optional<double> load_ratio;  // to the limit that is nearest; absent: not known
+    // Absent: not known.
+    std::optional<double> chip_mm;     // the thickest
+    std::optional<double> load_ratio;  // to the limit that is nearest
 
     double end_s() const { return start_s + duration_s; }
 };
@@ -35,6 +37,7 @@ enum class Quantity {
     mean_force,
     torque,
     depth,
+    chip,
     feed,
     speed,
     multiplier,
@@ -42,19 +45,20 @@ enum class Quantity {
     cutting_time,
     removed
 };
-inline constexpr std::size_t kQuantities = 10;
+inline constexpr std::size_t kQuantities = 11;
 
 struct QuantityWords {
     std::string_view name, key, unit;  // key: of files
 };
 
-// In the order of Quantity. Peaks, depth, multiplier and load are the largest of a stretch; mean force, feed
-// and speed are means over its time; time and volume are sums.
+// In the order of Quantity. Peaks, depth, chip, multiplier and load are the largest of a stretch; mean force,
+// feed and speed are means over its time; time and volume are sums.
 inline constexpr std::array<QuantityWords, kQuantities> kQuantityWords{{
     {"peak force across the axis", "peak_fxy_n", "N"},
     {"mean force", "mean_force_n", "N"},
     {"peak torque", "peak_torque_nm", "N m"},
     {"axial depth", "axial_depth_mm", "mm"},
+    {"thickest chip", "chip_mm", "mm"},
     {"feed", "feed_mm_per_min", "mm/min"},
     {"spindle speed", "spindle_rpm", "rpm"},
     {"chatter multiplier", "multiplier", ""},

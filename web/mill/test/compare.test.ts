@@ -1,77 +1,24 @@
 // SPDX-License-Identifier: MIT
 // Two runs side by side, from the page: how they are joined, how far their parts are apart, and the window that shows it.
-import { readFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import type { Frame, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
-import type { ChunkFrame, Cutter, Row } from "@tribo/protocol/frames";
+import type { ChunkFrame } from "@tribo/protocol/frames";
+import type { MillExports } from "@tribo/wasm/exports";
+import { joinedOf, type Joined } from "@tribo/wasm/joined";
 import { violations } from "../../testing/axe.js";
 import { file, PATIENCE_MS } from "../../testing/browser.js";
 import { jobText } from "../../testing/job.js";
 import { hasMillPage, MillPage } from "../../testing/mill_page.js";
-import { join, largest, QUANTITIES } from "../src/compare/join.js";
+import { PROGRAM as ENGINE } from "../../tools/places.js";
+import { load } from "../../wasm/test/load.js";
+import { largest } from "../src/compare/page.js";
+import { runOf, type Side } from "../src/compare/run.js";
 import { extremesOf, packed, rangeOf, REACH_MM, surfaceOf } from "../src/compare/surface.js";
-
-const CUTTERS: Cutter[] = [{ number: 1, flutes: 2, radius: 3, corner: 0, length: 10, holder: [] }];
-
-function row(line: number, time: number, duration: number, peakForce: number): Row {
-  return {
-    time,
-    duration,
-    tip: [time, 0, 0],
-    meanForce: peakForce / 2,
-    peakForce,
-    torque: -peakForce / 1000,
-    entry: 0,
-    exit: 90,
-    depth: 1,
-    feedPerTooth: 0.1,
-    line,
-    chip: 0.05,
-    chipVerdict: "",
-    multiplier: 0,
-    rpm: 1000,
-    axis: [0, 0, 1],
-    cutter: 0,
-    peakLow: 0,
-    peakHigh: 0,
-  };
-}
-const cuts = (...rows: Row[]) => ({ rows, cutters: CUTTERS });
-const value = (name: string) => QUANTITIES.findIndex((quantity) => quantity.name === name);
-
-describe("two cuts are joined", () => {
-  const a = cuts(row(3, 1, 1, 100), row(3, 2, 3, 300), row(5, 6, 2, 50));
-  it("by line where both cut in the same lines, each as long as it takes", () => {
-    const joined = join(a, cuts(row(3, 1, 2, 400), row(5, 4, 1, 20)));
-    expect([joined.by, joined.pairs.length]).toEqual(["line", 2]);
-    const [first] = joined.pairs;
-    expect([first!.at, first!.width, first!.b!.to_s]).toEqual([1, 4, 3]);
-    expect(first!.a!.tip).toEqual([2, 0, 0]);
-    expect(first!.a!.values[value("peak force across the axis")]).toBe(300);
-    // (50 * 1 + 150 * 3) / 4
-    expect(first!.a!.values[value("mean force")]).toBe(125);
-    expect(first!.a!.values[value("peak torque")]).toBe(0.3);
-    // 0.1 mm, two teeth, 1000 turns
-    expect(first!.a!.values[value("feed")]).toBeCloseTo(200, 12);
-    expect(largest(joined, 1).map(({ a: of, b }) => [of.line, b.values[0]! - of.values[0]!])).toEqual([[3, 100]]);
-  });
-  it("by time else, and every second of a row is in a step", () => {
-    const joined = join(a, cuts(row(7, 0, 10, 40)));
-    expect([joined.by, joined.step_s]).toEqual(["time", 0.01]);
-    const sum = (side: "a" | "b") =>
-      joined.pairs.reduce((all, pair) => all + (pair[side]?.values[value("cutting time")] ?? 0), 0);
-    expect(sum("a")).toBeCloseTo(6, 9);
-    expect(sum("b")).toBeCloseTo(10, 9);
-    // Between 5 and 6 s A cuts nothing.
-    const at = (time: number) => joined.pairs.find((pair) => pair.at <= time && time < pair.at + pair.width)!;
-    expect([at(5.505).a, at(5.505).b!.values[0]]).toEqual([undefined, 40]);
-  });
-  it("if one of them cuts nothing", () => {
-    expect(join(cuts(), cuts()).pairs).toEqual([]);
-    expect(join(a, cuts()).pairs.every(({ b }) => b === undefined)).toBe(true);
-  });
-});
 
 /** A strip of squares along x from `from`, with a distance for each of its places. */
 function strip(from: number, distances: number[]): ChunkFrame {
@@ -119,7 +66,86 @@ describe("the difference of two parts", () => {
 });
 
 const JOB = jobText("[[0, 0, -8], [30, 20, 0]]");
-const PROGRAM = "G21 G90 F1200\nG0 X-5 Y6 Z5\nG1 Z-2\nG1 X35\nG0 Z5\nG0 Y14 X-5\nG1 Z-2\nG1 X35\n";
+
+const CELL_MM = 0.25;
+const SLOTS = "G21 G90 F1200\nG0 X-5 Y6 Z5\nG1 Z-2\nG1 X35\nG0 Z5\nG0 Y14 X-5\nG1 Z-2\nG1 X35\n";
+
+describe.runIf(existsSync(ENGINE))("two cuts are joined as tribo compare joins them", () => {
+  const folder = mkdtempSync(join(tmpdir(), "tribo-joined-"));
+  afterAll(() => rmSync(folder, { recursive: true }));
+
+  const joinedInPage = async (a: string, b: string): Promise<Joined> => {
+    const mill = await load<MillExports>("tribo");
+    const side = (program: string): Side => {
+      const bytes = (text: string) => new TextEncoder().encode(text);
+      return {
+        files: [
+          { name: "job.toml", bytes: bytes(JOB) },
+          { name: "p.nc", bytes: bytes(program) },
+        ],
+        job: "job.toml",
+        part: "",
+        changes: [],
+      };
+    };
+    runOf(mill, side(a), CELL_MM, () => {});
+    mill.mill_keep();
+    mill.mill_forget_files();
+    runOf(mill, side(b), CELL_MM, () => {});
+    return joinedOf(mill);
+  };
+  // Of compare.csv: the tips, as the page has other pieces and of equal peaks the first one counts, and differences.
+  const isLeftOut = (name: string) => name.includes("_tip_") || name.startsWith("difference");
+  // Rows of numbers; an empty cell is NaN.
+  const joinedByEngine = (a: string, b: string): number[][] => {
+    for (const [name, program] of Object.entries({ a, b })) {
+      writeFileSync(join(folder, `${name}.toml`), JOB.replace("p.nc", `${name}.nc`) + '[sound]\nmode = "pan"\n');
+      writeFileSync(join(folder, `${name}.nc`), program);
+    }
+    const jobs = ["a.toml", "b.toml"].map((name) => join(folder, name));
+    const out = join(folder, "out");
+    execFileSync(ENGINE, ["compare", ...jobs, "--out", out, "--resolution", String(CELL_MM)], { stdio: "pipe" });
+    const [head, ...rows] = readFileSync(join(out, "compare.csv"), "utf8").trimEnd().split("\n");
+    const names = head!.split(",");
+    return rows.map((row) => {
+      const numbers = row.split(",").map((cell) => (cell === "" ? Number.NaN : Number(cell)));
+      return numbers.filter((_, column) => !isLeftOut(names[column]!));
+    });
+  };
+  // As the rows of the engine.
+  const rowsOf = ({ pairs, quantities }: Joined): number[][] =>
+    pairs.map(({ place, a, b }) => {
+      const placed = [a, b].flatMap((side) => (side ? [side.from_s, side.line] : [NaN, NaN]));
+      const values = quantities.flatMap((_, n) => [a?.values[n] ?? NaN, b?.values[n] ?? NaN]);
+      return [place, ...placed, ...values];
+    });
+
+  it.each([
+    ["line", SLOTS.replace("F1200", "F600")],
+    // The other slot first, from the other side.
+    ["removed volume", "G21 G90 F1200\nG0 X35 Y14 Z5\n\nG1 Z-2\n\nG1 X-5\nG0 Z5\nG0 Y6\nG1 Z-2\nG1 X35\n"],
+    ["time", "G21 G90 F1200\nG0 X-5 Y6 Z5\n\nG1 Z-1\nG1 X35\n"],
+  ])("by %s", async (by, program) => {
+    const joined = await joinedInPage(SLOTS, program);
+    expect(joined.by).toBe(by);
+    const [here, there] = [rowsOf(joined), joinedByEngine(SLOTS, program)];
+    expect(here.length).toBe(there.length);
+    expect(here.length).toBeGreaterThan(by === "line" ? 1 : 100);
+    // The page cuts long moves into shorter pieces, whose rows share the removed volume in another way.
+    const same = (value: number, expected: number) =>
+      Object.is(value, expected) || Math.abs(value - expected) < 1e-2 * (0.01 + Math.abs(expected));
+    const others = here.flatMap((row, n) => {
+      const column = there[n]!.findIndex((expected, k) => !same(row[k]!, expected));
+      return column < 0 && row.length === there[n]!.length ? [] : [[n, column, row[column], there[n]![column]]];
+    });
+    // A step of the volume that ends where a row ends may have the row in one of them only.
+    expect(others.length, JSON.stringify(others)).toBeLessThanOrEqual(here.length / 100);
+    const changes = joined.pairs.map(({ a, b }) => Math.abs((b?.values[0] ?? NaN) - (a?.values[0] ?? NaN)));
+    const sorted = changes.filter((change) => change > 0).sort((one, other) => other - one);
+    const found = largest(joined, 3).map(({ a, b }) => Math.abs(b.values[0]! - a.values[0]!));
+    expect(found).toEqual(sorted.slice(0, 3));
+  });
+});
 
 describe.runIf(hasMillPage)("two runs from the page", () => {
   let mill: MillPage;
@@ -129,7 +155,7 @@ describe.runIf(hasMillPage)("two runs from the page", () => {
   beforeAll(async () => {
     mill = await MillPage.open();
     ({ page } = mill);
-    await mill.load(file("job.toml", JOB), file("p.nc", PROGRAM));
+    await mill.load(file("job.toml", JOB), file("p.nc", SLOTS));
     await page.click("#show-panel");
   }, PATIENCE_MS);
   afterAll(() => mill?.close());

@@ -99,10 +99,16 @@ export interface MillExports extends CommonExports {
   mill_audit(): number;
   /** `lines` times AUDIT_COLUMNS.length doubles, in the order of time. */
   mill_audit_lines(): Address;
-  /** Keeps the open mill aside, for mill_volumes(). */
+  /** Keeps the open mill aside, for mill_volumes() and mill_join(). */
   mill_keep(): void;
   /** Two doubles: the material that only the part kept has, and that only the part of the open mill has, mm3. */
   mill_volumes(): Address;
+  /** Joins the rows of the mill kept and of the open one. The number of pairs; mill_text(): by what, tab, width of a step. */
+  mill_join(): number;
+  /** The pairs: joined.ts. */
+  mill_joined(): Address;
+  /** What is compared of a stretch, one per line: name, tab, unit. */
+  mill_quantities(): Address;
   /** All known materials, one per line. */
   mill_materials(): Address;
   /** All known machines, separated by ", ". */

@@ -2,6 +2,7 @@
 // Mills two runs beside the page, one after the other, and each once more against the part of the other.
 
 import type { MillExports, MillSoundExports } from "@tribo/wasm/exports";
+import { joinedOf, type Joined } from "@tribo/wasm/joined";
 import { doublesAt, textAt } from "@tribo/wasm/memory";
 import { compile, instantiate } from "@tribo/wasm/module";
 import { stl } from "../keep/stl.js";
@@ -13,8 +14,8 @@ export interface ToCompare {
   a: Side;
   b: Side;
 }
-/** The run without what only its part is made of. */
-export interface Told extends Omit<Run, "pieces"> {
+/** The run without what only its part and the joined rows are made of. */
+export interface Told extends Omit<Run, "pieces" | "rows"> {
   seen: ReturnType<typeof packed>;
   clip: Clip;
   heard_from_s: number;
@@ -23,6 +24,7 @@ export interface Compared {
   version: string;
   a: Told;
   b: Told;
+  joined: Joined;
   extremes: Extremes;
   /** Material that only one of the parts has, mm3. */
   only: { a: number; b: number };
@@ -46,8 +48,8 @@ async function freshEar(): Promise<MillSoundExports> {
 
 // With the beginning of its cut for the ear.
 async function run(side: Side, cell: number, progress: (share: number) => void) {
-  const { pieces, ...of } = runOf(await freshMill(), side, cell, progress);
-  const heard_from_s = of.rows[0]?.time ?? 0;
+  const { pieces, rows, ...of } = runOf(await freshMill(), side, cell, progress);
+  const heard_from_s = rows[0]?.time ?? 0;
   const clip = heardOf(await freshMill(), await freshEar(), side, cell, heard_from_s);
   return { pieces, of: { ...of, clip, heard_from_s } };
 }
@@ -69,6 +71,7 @@ async function compare(sides: ToCompare): Promise<Compared> {
   both.mill_keep();
   done = 3;
   const againstA = piecesAgainst(both, sides.b, cell, stl(trianglesOf(a.pieces)), progress);
+  const joined = joinedOf(both);
   const [onlyA, onlyB] = doublesAt(both, both.mill_volumes(), 2);
   const surfaces = [surfaceOf(againstB, -1), surfaceOf(againstA, 1)] as const;
   const range = rangeOf(surfaces);
@@ -76,6 +79,7 @@ async function compare(sides: ToCompare): Promise<Compared> {
     version,
     a: { ...a.of, seen: packed(surfaces[0], range) },
     b: { ...b.of, seen: packed(surfaces[1], range) },
+    joined,
     extremes: extremesOf(surfaces),
     only: { a: onlyA!, b: onlyB! },
   };

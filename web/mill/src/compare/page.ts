@@ -3,6 +3,7 @@
 // style and script.
 
 import type { AuditOfMill, AuditTool, Load } from "@tribo/wasm/audit";
+import type { Joined, Pair, Quantity, Stretch } from "@tribo/wasm/joined";
 import type { Vec3 } from "@tribo/protocol/vec3";
 import script from "../../../../src/report/page/compare.js?raw";
 import style from "../../../../src/report/page/style.css?raw";
@@ -11,7 +12,6 @@ import { RATE, type Clip } from "../learn/clip.js";
 import { precise } from "../texts/figures.js";
 import { language, t, translate, word } from "../texts/texts.js";
 import type { Compared, Told } from "./compare_worker.js";
-import { join, largest, QUANTITIES, type Joined, type Stretch } from "./join.js";
 import { REACH_MM } from "./surface.js";
 
 const SHOWN_PLACES = 10;
@@ -25,6 +25,27 @@ const WORDS = [
   word("B cuts deeper"),
   word("B leaves more"),
 ];
+// What the module calls the quantities.
+void [
+  word("peak force across the axis"),
+  word("mean force"),
+  word("peak torque"),
+  word("axial depth"),
+  word("thickest chip"),
+  word("feed"),
+  word("spindle speed"),
+  word("chatter multiplier"),
+  word("tool load"),
+  word("cutting time"),
+  word("removed volume"),
+];
+const AXES = { line: word("time of A, s"), "removed volume": word("removed volume, mm³"), time: word("time, s") };
+const STEPS = {
+  "removed volume": word(
+    "Both cuts are joined by removed volume, as their lines differ and both remove about the same. A step is {step} mm³.",
+  ),
+  time: word("Both cuts are joined by time, as their lines and what they remove differ. A step is {step} s."),
+};
 
 const escaped = (text: string) =>
   text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");
@@ -176,9 +197,23 @@ function totals({ a, b }: Compared): string {
   return table(t("What changed"), ["", "A", "B", "B − A", ""], rows, "totals");
 }
 
+// Place and width on the common axis: by line the time of A.
+const at = ({ by }: Joined, { place, a }: Pair) => (by === "line" ? a!.from_s : place);
+const width = ({ by, step }: Joined, { a }: Pair) => (by === "line" ? a!.to_s - a!.from_s : step);
+
+/** Those whose first quantity, the peak force, differs most, the largest difference first. */
+export function largest({ pairs }: Joined, count: number): (Pair & { a: Stretch; b: Stretch })[] {
+  const change = ({ a, b }: { a: Stretch; b: Stretch }) => Math.abs(b.values[0]! - a.values[0]!);
+  return pairs
+    .filter((pair): pair is Pair & { a: Stretch; b: Stretch } => pair.a !== undefined && pair.b !== undefined)
+    .filter((pair) => change(pair) > 0)
+    .sort((one, other) => change(other) - change(one))
+    .slice(0, count);
+}
+
 function places(joined: Joined): string {
-  const rows = largest(joined, SHOWN_PLACES).map(({ at, a, b }) => [
-    joined.by === "line" ? t("line {line}", { line: a.line }) : `${digits(at)} s`,
+  const rows = largest(joined, SHOWN_PLACES).map(({ place, a, b }) => [
+    joined.by === "line" ? t("line {line}", { line: place }) : `${digits(place)} ${joined.by === "time" ? "s" : "mm³"}`,
     String(a.line),
     String(b.line),
     digits(a.values[0]!),
@@ -214,13 +249,18 @@ function listen({ a, b }: Compared): string {
   );
 }
 
+const unitOf = ({ unit }: Quantity) => t(unit.replace("mm3", "mm³"));
+
 // Few digits, for plots; NaN is not known.
 const few = (value: number, count: number) => (Number.isFinite(value) ? Number(value.toPrecision(count)) : null);
 
-function dataOf(compared: Compared, joined: Joined): string {
-  const known = QUANTITIES.map((_, n) => n).filter((n) =>
-    joined.pairs.some(({ a, b }) => Boolean(a?.values[n] || b?.values[n])),
-  );
+// Numbers of the quantities that at least one of the runs knows.
+const known = ({ quantities, pairs }: Joined) =>
+  quantities.map((_, n) => n).filter((n) => pairs.some(({ a, b }) => Boolean(a?.values[n] || b?.values[n])));
+
+function dataOf(compared: Compared): string {
+  const { joined } = compared;
+  const lanes = known(joined);
   const side = (name: "a" | "b") => {
     const column = (of: (stretch: Stretch) => number | null) =>
       joined.pairs.map((pair) => (pair[name] ? of(pair[name]) : null));
@@ -230,16 +270,16 @@ function dataOf(compared: Compared, joined: Joined): string {
       x: column(({ tip }) => few(tip[0], 6)),
       y: column(({ tip }) => few(tip[1], 6)),
       z: column(({ tip }) => few(tip[2], 6)),
-      values: known.map((n) => column(({ values }) => few(values[n]!, 5))),
+      values: lanes.map((n) => column(({ values }) => few(values[n]!, 5))),
       part: compared[name].seen.part,
     };
   };
   const data = {
     schema: "tribo.compare-page/1",
-    axis: joined.by === "line" ? t("time of A, s") : t("time, s"),
-    lanes: known.map((n) => ({ name: t(QUANTITIES[n]!.name), unit: t(QUANTITIES[n]!.unit) })),
-    at: joined.pairs.map(({ at }) => few(at, 8)),
-    width: joined.pairs.map(({ width }) => few(width, 5)),
+    axis: t(AXES[joined.by]),
+    lanes: lanes.map((n) => ({ name: t(joined.quantities[n]!.name), unit: unitOf(joined.quantities[n]!) })),
+    at: joined.pairs.map((pair) => few(at(joined, pair), 8)),
+    width: joined.pairs.map((pair) => few(width(joined, pair), 5)),
     a: side("a"),
     b: side("b"),
     words: { ...Object.fromEntries(WORDS.map((text) => [text, t(text)])), ".": language === "de" ? "," : "." },
@@ -273,13 +313,9 @@ export function comparisonPage(compared: Compared, names: { a: Named; b: Named }
   }
   translate(page.documentElement);
   page.documentElement.lang = language;
-  const joined = join(
-    { rows: compared.a.rows, cutters: compared.a.job.cutters },
-    { rows: compared.b.rows, cutters: compared.b.job.cutters },
-  );
+  const { joined } = compared;
   const what = ({ material, job }: Told, { changes }: Named) =>
     escaped([material, t("cutters: {count}", { count: job.cutters.length }), ...changes].join(", "));
-  const lanes = QUANTITIES.filter((_, n) => joined.pairs.some(({ a, b }) => Boolean(a?.values[n] || b?.values[n])));
   const marks: Record<string, () => string> = {
     title: () => `${escaped(names.a.name)}, ${escaped(names.b.name)}`,
     style: () => style,
@@ -295,19 +331,17 @@ export function comparisonPage(compared: Compared, names: { a: Named; b: Named }
     joined: () =>
       joined.by === "line"
         ? t("Both cuts are joined by line: both runs cut in the same lines, in the same order.")
-        : t("Both cuts are joined by time, as their lines differ. A step is {step} s.", {
-            step: digits(joined.step_s),
-          }),
+        : t(STEPS[joined.by], { step: digits(joined.step) }),
     lanes: () =>
-      lanes
+      known(joined)
         .map(
-          ({ name }, n) =>
-            `<label><input type="radio" name="lane" value="${n}"${n === 0 ? " checked" : ""}> ${escaped(t(name))}</label>`,
+          (quantity, n) =>
+            `<label><input type="radio" name="lane" value="${n}"${n === 0 ? " checked" : ""}> ${escaped(t(joined.quantities[quantity]!.name))}</label>`,
         )
         .join("\n"),
     sound: () => listen(compared),
     warnings: () => notice(t("Warnings"), [...new Set([...compared.a.warnings, ...compared.b.warnings])]),
-    data: () => dataOf(compared, joined),
+    data: () => dataOf(compared),
     parts: () => SIDES.map((side) => bytesOf(`part-${side}`, compared[side].seen.bytes)).join(""),
     sounds: () => SIDES.map((side) => bytesOf(`sound-${side}`, wav(compared[side].clip, RATE))).join(""),
     script: () => script,

@@ -460,8 +460,14 @@ export const TABLE: Table = {
   "Compared as they stand": "Verglichen, wie sie sind",
   "Both cuts are joined by line: both runs cut in the same lines, in the same order.":
     "Beide Schnitte sind nach Zeilen verbunden: Beide schneiden in denselben Zeilen, in derselben Folge.",
-  "Both cuts are joined by time, as their lines differ. A step is {step} s.":
-    "Beide Schnitte sind nach der Zeit verbunden, da ihre Zeilen andere sind. Ein Schritt ist {step} s.",
+  "Both cuts are joined by removed volume, as their lines differ and both remove about the same. A step is {step} mm³.":
+    "Beide Schnitte sind nach dem zerspanten Volumen verbunden, da ihre Zeilen andere sind und beide etwa gleich viel abtragen. Ein Schritt ist {step} mm³.",
+  "Both cuts are joined by time, as their lines and what they remove differ. A step is {step} s.":
+    "Beide Schnitte sind nach der Zeit verbunden, da ihre Zeilen andere sind und sie nicht gleich viel abtragen. Ein Schritt ist {step} s.",
+  "axial depth": "Schnitttiefe",
+  "chatter multiplier": "Rattern, |mu|",
+  "tool load": "Werkzeuglast",
+  "removed volume, mm³": "zerspantes Volumen, mm³",
   Warnings: "Warnungen",
   "Units: mm, N, s.": "Einheiten: mm, N, s.",
   "Both runs are milled to their end, and once more against the part of the other.":
