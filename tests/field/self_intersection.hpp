@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -62,16 +61,11 @@ class Expansion {
     std::size_t size_ = 0;
 };
 
-// Whether points lie in one plane across an axis: exact and quick for what is cut along the axes.
-inline bool share_plane(std::initializer_list<const Point3f*> points, std::size_t axis) {
-    return std::all_of(points.begin(), points.end(),
-                       [&](const Point3f* p) { return (*p)[axis] == (**points.begin())[axis]; });
-}
-
 // Sign of the volume of a tetrahedron with corners in single precision.
 inline int orient3(const Point3f& a, const Point3f& b, const Point3f& c, const Point3f& d) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (share_plane({&a, &b, &c, &d}, axis)) return 0;
+    // In one plane across an axis: exact and quick for what is cut along the axes.
+    for (std::size_t n = 0; n < 3; ++n) {
+        if (b[n] == a[n] && c[n] == a[n] && d[n] == a[n]) return 0;
     }
     double m[3][3], most = 1;
     for (std::size_t n = 0; n < 3; ++n) {
@@ -102,10 +96,10 @@ inline int orient3(const Point3f& a, const Point3f& b, const Point3f& c, const P
 // Sign of the area of a triangle seen along an axis.
 inline int orient2(const Point3f& a, const Point3f& b, const Point3f& c, std::size_t axis) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-    if (share_plane({&a, &b, &c}, u) || share_plane({&a, &b, &c}, v)) return 0;
-    const auto plain_off = [](float p, float q) { return double{p} - double{q}; };
-    const double left = plain_off(b[u], a[u]) * plain_off(c[v], a[v]);
-    const double right = plain_off(b[v], a[v]) * plain_off(c[u], a[u]);
+    const double bu = double{b[u]} - double{a[u]}, bv = double{b[v]} - double{a[v]};
+    const double cu = double{c[u]} - double{a[u]}, cv = double{c[v]} - double{a[v]};
+    if ((bu == 0 && cu == 0) || (bv == 0 && cv == 0)) return 0;
+    const double left = bu * cv, right = bv * cu;
     if (std::abs(left - right) > 1e-14 * (std::abs(left) + std::abs(right))) return sign(left - right);
     Expansion area = Expansion::difference(b[u], a[u]) * Expansion::difference(c[v], a[v]);
     area.add(Expansion::difference(b[v], a[v]) * Expansion::difference(c[u], a[u]), -1);
@@ -163,6 +157,37 @@ inline bool segment_meets(const Point3f& p, const Point3f& q, const Corners& t) 
     return all(1) || all(-1);
 }
 
+// Whether all corners of a triangle lie on one side of the plane of another one, and none on it.
+inline bool is_beside_plane(const Corners& t, const Corners& plane) {
+    const int side = orient3(plane[0], plane[1], plane[2], t[0]);
+    return side != 0 && orient3(plane[0], plane[1], plane[2], t[1]) == side &&
+           orient3(plane[0], plane[1], plane[2], t[2]) == side;
+}
+
+// Whether all corners of a triangle lie beyond one edge of another one in its plane, and none on it.
+inline bool is_beyond_an_edge(const Corners& t, const Corners& of, std::size_t axis) {
+    const int turn = orient2(of[0], of[1], of[2], axis);
+    for (std::size_t n = 0; n < 3; ++n) {
+        const Point3f &a = of[n], &b = of[(n + 1) % 3];
+        if (std::all_of(t.begin(), t.end(),
+                        [&](const Point3f& p) { return orient2(a, b, p, axis) * turn < 0; }))
+            return true;
+    }
+    return false;
+}
+
+// Whether closed triangles without a common corner meet.
+inline bool meet_apart(const Corners& s, const Corners& t) {
+    if (is_beside_plane(t, s) || is_beside_plane(s, t)) return false;
+    const std::size_t axis = seen_along(s);
+    if (std::all_of(t.begin(), t.end(), [&](const Point3f& p) { return orient3(s[0], s[1], s[2], p) == 0; }))
+        return !is_beyond_an_edge(t, s, axis) && !is_beyond_an_edge(s, t, axis);
+    for (std::size_t n = 0; n < 3; ++n) {
+        if (segment_meets(s[n], s[(n + 1) % 3], t) || segment_meets(t[n], t[(n + 1) % 3], s)) return true;
+    }
+    return false;
+}
+
 // Whether two triangles have more in common than the corners that they share (by value).
 inline bool meet(const Corners& s, const Corners& t) {
     std::array<int, 3> twin{-1, -1, -1};
@@ -198,11 +223,7 @@ inline bool meet(const Corners& s, const Corners& t) {
             return segment_meets(a[0], a[1], t) || segment_meets(b[0], b[1], s);
         }
     }
-    for (std::size_t n = 0; n < 3; ++n) {
-        const auto a = edge_of(s, n), b = edge_of(t, n);
-        if (segment_meets(a[0], a[1], t) || segment_meets(b[0], b[1], s)) return true;
-    }
-    return false;
+    return meet_apart(s, t);
 }
 
 // Pairs of triangles that meet, and triangles without area: (n, n).
