@@ -108,7 +108,9 @@ Result<void> take_declared_stock(Job& job, const motion::Program& program, Warni
         return fail_at(program.source, program.stock->line, 0, room.error().cause, room.error().remedy);
     }
     warnings.push_back(
-        {program.source, program.stock->line, "the stock is taken from the program (BLK FORM)"});
+        {program.source, program.stock->line,
+         std::string("the stock is taken from the program (") +
+             (program.dialect == name_of(readers::Dialect::siemens) ? "WORKPIECE)" : "BLK FORM)")});
     return {};
 }
 

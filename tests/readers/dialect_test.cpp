@@ -40,6 +40,7 @@ TEST(Dialect, IsToldByWhatOnlyOneControlWrites) {
         {"G0 X1\nN30 g1 z = r6\n", Dialect::siemens},
         {"DEF REAL _F\n", Dialect::siemens},
         {"IF R1==5 GOTOF END\n", Dialect::siemens},
+        {"L X1,5 Y0.5 FMAX\n", Dialect::heidenhain},
         {"#<max>=5\nG1 X1\n", Dialect::linuxcnc},
         {"\xEF\xBB\xBF"
          "0 BEGIN PGM X MM\r\n",

@@ -220,7 +220,7 @@ void Path::declare(const motion::DeclaredTool& declared) {
     if (declaring_lines_.insert(declared.line).second) program.tools.push_back(declared);
 }
 
-std::optional<double> Path::tool_radius_mm() const {
+std::optional<double> Path::tool_radius_mm(double unit_of_program_mm) const {
     const auto known = [&](int number) -> std::optional<double> {
         for (auto given = options.tools.rbegin(); given != options.tools.rend(); ++given) {
             if (given->number == number && given->diameter_mm > 0) return given->diameter_mm / 2;
@@ -230,11 +230,13 @@ std::optional<double> Path::tool_radius_mm() const {
     if (const auto given = known(tool)) return given;
     const auto declared = declared_radii_mm_.find(tool);
     if (declared != declared_radii_mm_.end()) return declared->second;
-    return known(0);  // an unnumbered tool of the job stands for every one
+    if (const auto any = known(0)) return any;  // an unnumbered tool of the job stands for every one
+    if (const auto diameter = notes.diameter_mm(tool, unit_of_program_mm)) return *diameter / 2;
+    return std::nullopt;
 }
 
 double Path::clearing_radius_mm(double unit_of_program_mm, int line, double room_mm) {
-    if (const auto radius = tool_radius_mm(); radius && *radius > 0) return *radius;
+    if (const auto radius = tool_radius_mm(unit_of_program_mm); radius && *radius > 0) return *radius;
     if (const auto diameter = notes.stated_diameter_mm(tool, unit_of_program_mm)) return *diameter / 2;
     const double assumed_mm = room_mm > 0 ? std::min(kAssumedRadiusMm, room_mm / 2) : kAssumedRadiusMm;
     if (assumed_radii_.insert(tool).second) {

@@ -104,8 +104,9 @@ class Path {
     void declare(const motion::DeclaredTool& tool);
     // Keeps the radius that TOOL DEF gives a tool; also 0.
     void define_radius(int number, double radius_mm) { declared_radii_mm_[number] = radius_mm; }
-    // Radius of the tool in the spindle by the options, else by TOOL DEF; none if nothing states it.
-    std::optional<double> tool_radius_mm() const;
+    // Radius of the tool in the spindle by the options, else by TOOL DEF, else by a comment for compensation
+    // (ToolNotes::diameter_mm); none if nothing states it.
+    std::optional<double> tool_radius_mm(double unit_of_program_mm) const;
     // Its radius for cycles that clear an area, which have no path without one: as above, else by a comment,
     // else kAssumedRadiusMm, or half of the room where that is narrower, with a warning for each tool.
     double clearing_radius_mm(double unit_of_program_mm, int line, double room_mm = kOpenMm);

@@ -68,10 +68,15 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
     }
     bool is_local = code.tenths == 970;
     // Fanuc 30i: M98 Q100 runs lines of this program from N100 on, M98 P1000 Q100 begins there in O1000.
-    const Word* from =
-        !is_local && output.options.dialect == GcodeDialect::fanuc ? command.use('Q') : nullptr;
-    if (from != nullptr && !is_whole(*from, 1))
-        return output.refuse(line, from->column, "M98 Q is not the number of a line", "correct Q");
+    // Mitsubishi and Syntec write H in place of Q.
+    const bool has_line = !is_local && output.options.dialect == GcodeDialect::fanuc;
+    const Word* from = has_line ? command.use('Q') : nullptr;
+    if (has_line && from == nullptr && !command.g(GGroup::tool_length)) from = command.use('H');
+    if (from != nullptr && !is_whole(*from, 1)) {
+        const std::string letter(1, from->letter);
+        return output.refuse(line, from->column, "M98 " + letter + " is not the number of a line",
+                             "correct " + letter);
+    }
     if (number == nullptr && from != nullptr) {
         is_local = true;
         number = std::exchange(from, nullptr);

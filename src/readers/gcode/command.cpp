@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "readers/text/decimal_text.hpp"
+
 namespace tribo::readers::gcode {
 namespace {
 
@@ -25,7 +27,7 @@ std::unexpected<Error> refuse(int line, const Word& word, std::string cause, std
 }
 
 std::unexpected<Error> refuse_code(int line, const Word& word, std::optional<int> tenths, Unread unread) {
-    std::string text = tenths ? code_text(word.letter, *tenths) : std::string(1, word.letter) + " code";
+    std::string text = tenths ? code_text(word.letter, *tenths) : word.letter + short_decimal(word.value);
     if (unread.what.empty()) {
         text += " is not known";
     } else {

@@ -239,7 +239,14 @@ Result<void> Flow::call(const OWord& word, Block& block) {
     std::array<double, kLocalParameters> arguments;
     std::size_t count = 0;
     Cursor& cursor = lexer_.cursor();
-    while (cursor.peek_after_blanks() == '[') {
+    for (;;) {
+        // A comment may stand between the arguments.
+        while (cursor.peek_after_blanks() == '(') {
+            const std::size_t end = cursor.line.find(')', cursor.at);
+            if (end == std::string_view::npos) break;
+            cursor.at = end + 1;
+        }
+        if (cursor.peek() != '[') break;
         if (count == arguments.size()) {
             return cursor.refuse(cursor.at, "a call has more than 30 arguments",
                                  "pass the rest in named parameters");
@@ -302,6 +309,15 @@ Result<void> Flow::return_from_sub(const OWord& word, Block& block) {
     forget_loops(calls_.back());
     calls_.pop_back();
     return {};
+}
+
+Result<std::optional<Flow::MainProgram>> Flow::go_to_main(int line) {
+    if (auto known = require_labels(); !known) return std::unexpected(known.error());
+    const int index = labels_->main_program();
+    if (index < 0 || (*labels_)[index].line <= line) return std::nullopt;
+    const Landmark& main = (*labels_)[index];
+    lexer_.go_to(main.after);
+    return MainProgram{main.label, main.line};
 }
 
 Result<bool> Flow::has_program(const Word& number) {

@@ -36,6 +36,13 @@ class Flow {
     using Arguments = std::array<double, kMacroParameters>;
     Result<void> call_program(const Word& number, std::int64_t times, int line,
                               const Arguments* arguments = nullptr, const Word* from = nullptr);
+    // At the first program number: goes on in the main program of the text (Labels::main_program). Returns
+    // its label and line where it is another one.
+    struct MainProgram {
+        std::string label;
+        int line = 0;
+    };
+    Result<std::optional<MainProgram>> go_to_main(int line);
     // True if the text has the program of that number.
     Result<bool> has_program(const Word& number);
     // True if the program has a line of that number.

@@ -209,6 +209,14 @@ class ProgramReader {
             return output_.refuse(block.line, block.column, "a second program starts here",
                                   "give each program its own file");
         }
+        if (has_words_) return true;
+        const auto main = flow_.go_to_main(block.line);
+        if (!main) return std::unexpected(main.error());
+        if (*main) {
+            output_.warn(block.line, "this program ends with M99, as subprograms do: O" + (*main)->label +
+                                         " on line " + std::to_string((*main)->line) +
+                                         " is read as the main program");
+        }
         return true;
     }
 
@@ -262,6 +270,7 @@ class ProgramReader {
             command.use('P');
             command.use('L');
             if (command.m(MGroup::subprogram)->tenths == 970 || parameters_.is_fanuc()) command.use('Q');
+            if (parameters_.is_fanuc()) command.use('H');
         }
         pass_unknown_codes(command, output_);
         if (auto done = pass_unused_words(command, state_, output_); !done)

@@ -95,12 +95,11 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
 
 // The radius of the tool with DR; 0 with a warning where nothing states it.
 Result<double> Interpreter::compensation_radius(Place where) {
-    const auto radius = path_.tool_radius_mm();
+    const auto radius = path_.tool_radius_mm(unit_mm_);
     if (!radius) {
         if (path_.first(kNoRadius)) {
             path_.warn(where.line,
-                       "radius compensation, but nothing states the radius of tool " +
-                           std::to_string(path_.tool) +
+                       "radius compensation, but " + path_.notes.no_diameter_text(path_.tool, "radius") +
                            ": the programmed path is taken for that of its centre; give the tool to the "
                            "job or write TOOL DEF with R");
         }

@@ -152,8 +152,8 @@ Result<void> Interpreter::read_system(LineReader& in) {
         value = path_.tool;
     } else if (id == 20 && nr == 4) {
         value = path_.spindle_rpm;
-    } else if (id == 50 && nr == 2 && path_.tool_radius_mm()) {
-        value = *path_.tool_radius_mm() / unit_mm_;
+    } else if (id == 50 && nr == 2 && path_.tool_radius_mm(unit_mm_)) {
+        value = *path_.tool_radius_mm(unit_mm_) / unit_mm_;
     }
     if (value) {
         parameters_.set(**index, *value);

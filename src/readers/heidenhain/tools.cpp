@@ -154,7 +154,7 @@ Result<void> Interpreter::call_tool(LineReader& in) {
             path_.change_tool(item.name.empty() ? static_cast<int>(*item.value)
                                                 : number_of_tool(item.name.substr(1)));
             tool_oversize_mm_ = 0;
-            if (const auto radius = path_.tool_radius_mm()) {
+            if (const auto radius = path_.tool_radius_mm(unit_mm_)) {
                 parameters_.set(kRadiusParameter, *radius / unit_mm_);
             } else {
                 parameters_.forget(kRadiusParameter);
@@ -188,7 +188,7 @@ Result<void> Interpreter::call_tool(LineReader& in) {
                            "tip; only radius compensation counts DR");
             }
         } else if (item.name == "VC" && item.value) {
-            const auto radius = path_.tool_radius_mm();
+            const auto radius = path_.tool_radius_mm(unit_mm_);
             if (!radius || !(*radius > 0)) {
                 path_.warn(line_.number, "VC without the tool's radius gives no speed: the one before stays");
                 continue;

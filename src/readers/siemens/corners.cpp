@@ -114,11 +114,11 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
 
 // The radius of the tool; 0 with a warning where nothing states it.
 Result<double> Interpreter::cutter_radius(Place where, const char* what) {
-    const auto radius = path_.tool_radius_mm();
+    const auto radius = path_.tool_radius_mm(unit_mm_);
     if (!radius) {
         if (path_.first(kNoRadius)) {
-            path_.warn(where.line, std::string(what) + ", but nothing states the radius of tool " +
-                                       std::to_string(path_.tool) +
+            path_.warn(where.line, std::string(what) + ", but " +
+                                       path_.notes.no_diameter_text(path_.tool, "radius") +
                                        ": the programmed path is taken for that of its centre; give the "
                                        "tool to the job");
         }

@@ -45,6 +45,7 @@ Result<bool> Interpreter::run_cycle(const Call& call) {
     };
     if (text_.unit_named(name) != nullptr) return false;
     if (name == "CYCLE800") return ran(swivel(call));
+    if (name == "WORKPIECE") return ran(declare_stock(call));
     constexpr std::string_view drilling[] = {"CYCLE81", "CYCLE82", "CYCLE83", "CYCLE84", "CYCLE85",
                                              "CYCLE86", "CYCLE87", "CYCLE88", "CYCLE89", "CYCLE840"};
     if (std::find(std::begin(drilling), std::end(drilling), name) != std::end(drilling)) {

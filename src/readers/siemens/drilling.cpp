@@ -174,7 +174,7 @@ Result<void> Interpreter::drill(const Call& call) {
         static_cast<int>(std::clamp(call.at(layout.mode < kNone ? layout.mode - 2 : kNone), 0.0, 1e6)) / 10 %
         10;
     if (depth_kind == 1 && call.name == "CYCLE82") {  // to the shank: the point goes deeper
-        const auto radius = path_.tool_radius_mm();
+        const auto radius = path_.tool_radius_mm(unit_mm_);
         const double point = radius ? *radius / math::tan(kShankAngleDeg / 2 * math::kRadPerDeg) : 0;
         end -= up * point;
         if (path_.first(kShank)) {

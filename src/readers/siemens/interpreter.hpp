@@ -55,6 +55,7 @@ enum Note {
     kSmoothing,
     kTipControl,
     kPolar,
+    kOtherStock,
 };
 
 inline constexpr int kDeepestCall = 24;          // of calls and repeats within each other
@@ -193,6 +194,7 @@ class Interpreter : private SystemValues {
     Result<motion::WorkFrame> turned_within(const motion::WorkFrame& frame, const Vec3& scale, Vec3 rad,
                                             Place where) const;
     Result<void> swivel(const Call& call);
+    Result<void> declare_stock(const Call& call);
     Result<void> set_frame(int line);
     void set_work_offset(int code);
     motion::WorkFrame settable_frame() const;

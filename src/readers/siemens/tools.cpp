@@ -136,13 +136,38 @@ Result<void> Interpreter::assign_system(Cursor& in) {
     return {};
 }
 
+// WORKPIECE(, "", , "BOX", 112, Z0, Z1, ZB, X0, Y0, X1, Y1): 112 says that Z1, X1 and Y1 are absolute. Other
+// blanks and increments are left to the job. Without values it ends the display of a blank.
+Result<void> Interpreter::declare_stock(const Call& call) {
+    constexpr double kAbsolute = 112;
+    constexpr std::size_t kZ0 = 5, kZ1 = 6, kX0 = 8;
+    if (call.given.empty()) return {};
+    const bool is_box = call.text(3) == "BOX" && call.at(4) == kAbsolute && call.has(kZ1);
+    Box3 box;
+    if (is_box) {
+        for (const std::size_t corner : {std::size_t{0}, std::size_t{1}}) {
+            const Vec3 point{call.at(kX0 + 2 * corner), call.at(kX0 + 1 + 2 * corner),
+                             call.at(corner == 0 ? kZ0 : kZ1)};
+            box.include(unit_mm_ * point);
+        }
+    }
+    if (!is_box || !(box.volume() > 0)) {
+        if (path_.first(kOtherStock))
+            path_.warn(call.line,
+                       "this WORKPIECE is no box of absolute corners: the stock is taken from the job");
+        return {};
+    }
+    path_.program.stock = motion::DeclaredStock{box, call.line};
+    return {};
+}
+
 std::optional<Value> Interpreter::system_value(const std::string& name,
                                                const std::vector<Value>& index) const {
     if (name == "PI") return Value{math::kPi};
     if (name == "P_TOOLNO") return Value{static_cast<double>(path_.tool)};
     if (name == "P_TOOL") return Value{1.0};
     if (name == "P_TOOLR") {
-        const auto radius = path_.tool_radius_mm();
+        const auto radius = path_.tool_radius_mm(unit_mm_);
         if (!radius) return std::nullopt;
         return Value{*radius / unit_mm_};
     }

@@ -15,32 +15,32 @@ constexpr int kDeepestMacro = 8;
 // Keywords without effect on the path: look-ahead, smoothing and jerk, feed forward, dynamics, compressors,
 // interpolation of the orientation, spindles and their modes, messages, protection zones, channels, display.
 constexpr std::string_view kSilent[] = {
-    "MSG",        "PRINT",        "PRINTLN",    "CP",         "PTP",      "PTPG0",     "TOWSTD",
-    "TOWMCS",     "TOWWCS",       "TOWBCS",     "TOWTCS",     "TOWKCS",   "FENDNORM",  "STOPRE",
-    "SOFT",       "SOFTA",        "BRISK",      "BRISKA",     "DRIVE",    "DRIVEA",    "FFWON",
-    "FFWOF",      "COMPCAD",      "COMPON",     "COMPCURV",   "COMPOF",   "COMPSURF",  "COMPPATH",
-    "ORIWKS",     "ORIMKS",       "ORIAXES",    "ORIVECT",    "ORIPLANE", "ORISON",    "ORISOF",
-    "ORIPATH",    "ORIPATHS",     "ORIROTC",    "ORID",       "ORIVIRT1", "ORIVIRT2",  "ORICONIO",
-    "ORICONTO",   "ORIROTA",      "CFTCP",      "CFC",        "CFIN",     "UPATH",     "SPATH",
-    "FIFOCTRL",   "STARTFIFO",    "STOPFIFO",   "DIAMOF",     "DIAM90",   "DIAMCYCOF", "DIAMCHANA",
-    "CUTDD",      "CUTCONON",     "CUTCONOF",   "NORM",       "KONT",     "KONTC",     "KONTT",
-    "DYNNORM",    "DYNROUGH",     "DYNFINISH",  "DYNSEMIFIN", "DYNPOS",   "DYNPREC",   "CYCLE832",
-    "WORKPIECE",  "RTLION",       "RTLIOF",     "CDON",       "CDOF",     "CDOF2",     "GROUP_BEGIN",
-    "GROUP_END",  "GROUP_ADDEND", "SETMS",      "WALIMON",    "WALIMOF",  "SPCON",     "SPCOF",
-    "SPINON",     "SPINOF",       "MEAS",       "SETAL",      "SBLON",    "SBLOF",     "DISPLOF",
-    "DISPLON",    "SAVE",         "ACTBLOCNO",  "ASPLINEON",  "BAUTO",    "BNAT",      "BTAN",
-    "EAUTO",      "ENAT",         "ETAN",       "PAROT",      "PAROTOF",  "WAITM",     "WAITP",
-    "WAITS",      "WAITMC",       "SETM",       "CLEARM",     "INIT",     "START",     "WAITE",
-    "GET",        "GETD",         "RELEASE",    "EXTERN",     "TCARR",    "TCOABS",    "TCOFR",
-    "TCOFRX",     "TCOFRY",       "TCOFRZ",     "TOFFON",     "TOFFOF",   "PDELAYON",  "PDELAYOF",
-    "SON",        "SPOF",         "F_SAVE_ORI", "CPRECON",    "CPRECOF",  "FNORM",     "FLIN",
-    "FCUB",       "FPO",          "DISABLE",    "ENABLE",     "CLRINT",   "LIFTFAST",  "TRAILON",
-    "TRAILOF",    "COUPON",       "COUPOF",     "CANCEL",     "NEWCONF",  "DELDTG",    "IPTRLOCK",
-    "IPTRUNLOCK", "POLFMASK",     "POLFMLIN",   "LFON",       "LFOF",     "LFTXT",     "LFPOS",
-    "LFWP",       "CPROT",        "CPROTDEF",   "PROTA",      "PROTS",    "STRINGIS",  "CALCPOSI",
-    "VELOLIMA",   "ACCLIMA",      "JERKLIMA",   "SYNFCT",     "F_HEAD",   "WRITE",     "DELETE",
-    "MMC",        "G_INFO",       "STOLF",      "CTOLG0",     "CADIS",    "ADDFRAME",  "REPOSA",
-    "OEMIPO1",    "ORICURINV",
+    "MSG",          "PRINT",      "PRINTLN",   "CP",         "PTP",      "PTPG0",       "TOWSTD",
+    "TOWMCS",       "TOWWCS",     "TOWBCS",    "TOWTCS",     "TOWKCS",   "FENDNORM",    "STOPRE",
+    "SOFT",         "SOFTA",      "BRISK",     "BRISKA",     "DRIVE",    "DRIVEA",      "FFWON",
+    "FFWOF",        "COMPCAD",    "COMPON",    "COMPCURV",   "COMPOF",   "COMPSURF",    "COMPPATH",
+    "ORIWKS",       "ORIMKS",     "ORIAXES",   "ORIVECT",    "ORIPLANE", "ORISON",      "ORISOF",
+    "ORIPATH",      "ORIPATHS",   "ORIROTC",   "ORID",       "ORIVIRT1", "ORIVIRT2",    "ORICONIO",
+    "ORICONTO",     "ORIROTA",    "CFTCP",     "CFC",        "CFIN",     "UPATH",       "SPATH",
+    "FIFOCTRL",     "STARTFIFO",  "STOPFIFO",  "DIAMOF",     "DIAM90",   "DIAMCYCOF",   "DIAMCHANA",
+    "CUTDD",        "CUTCONON",   "CUTCONOF",  "NORM",       "KONT",     "KONTC",       "KONTT",
+    "DYNNORM",      "DYNROUGH",   "DYNFINISH", "DYNSEMIFIN", "DYNPOS",   "DYNPREC",     "CYCLE832",
+    "RTLION",       "RTLIOF",     "CDON",      "CDOF",       "CDOF2",    "GROUP_BEGIN", "GROUP_END",
+    "GROUP_ADDEND", "SETMS",      "WALIMON",   "WALIMOF",    "SPCON",    "SPCOF",       "SPINON",
+    "SPINOF",       "MEAS",       "SETAL",     "SBLON",      "SBLOF",    "DISPLOF",     "DISPLON",
+    "SAVE",         "ACTBLOCNO",  "ASPLINEON", "BAUTO",      "BNAT",     "BTAN",        "EAUTO",
+    "ENAT",         "ETAN",       "PAROT",     "PAROTOF",    "WAITM",    "WAITP",       "WAITS",
+    "WAITMC",       "SETM",       "CLEARM",    "INIT",       "START",    "WAITE",       "GET",
+    "GETD",         "RELEASE",    "EXTERN",    "TCARR",      "TCOABS",   "TCOFR",       "TCOFRX",
+    "TCOFRY",       "TCOFRZ",     "TOFFON",    "TOFFOF",     "PDELAYON", "PDELAYOF",    "SON",
+    "SPOF",         "F_SAVE_ORI", "CPRECON",   "CPRECOF",    "FNORM",    "FLIN",        "FCUB",
+    "FPO",          "DISABLE",    "ENABLE",    "CLRINT",     "LIFTFAST", "TRAILON",     "TRAILOF",
+    "COUPON",       "COUPOF",     "CANCEL",    "NEWCONF",    "DELDTG",   "IPTRLOCK",    "IPTRUNLOCK",
+    "POLFMASK",     "POLFMLIN",   "LFON",      "LFOF",       "LFTXT",    "LFPOS",       "LFWP",
+    "CPROT",        "CPROTDEF",   "PROTA",     "PROTS",      "STRINGIS", "CALCPOSI",    "VELOLIMA",
+    "ACCLIMA",      "JERKLIMA",   "SYNFCT",    "F_HEAD",     "WRITE",    "DELETE",      "MMC",
+    "G_INFO",       "STOLF",      "CTOLG0",    "CADIS",      "ADDFRAME", "REPOSA",      "OEMIPO1",
+    "ORICURINV",
 };
 
 struct Refused {
@@ -88,8 +88,8 @@ constexpr NamedMotion kMotions[] = {
 };
 
 bool is_cycle(std::string_view name) {
-    return name.starts_with("CYCLE") || name.starts_with("HOLES") || name.starts_with("POCKET") ||
-           name.starts_with("SLOT") || name == "LONGHOLE";
+    return name == "WORKPIECE" || name.starts_with("CYCLE") || name.starts_with("HOLES") ||
+           name.starts_with("POCKET") || name.starts_with("SLOT") || name == "LONGHOLE";
 }
 
 template <std::size_t N>

@@ -101,8 +101,13 @@ void ToolNotes::name(int number, std::string_view name, int line) {
 }
 
 void ToolNotes::change(int tool) {
-    window_tool_ = tool;
+    is_empty_ = tool == 0;
     window_has_note_ = false;
+    if (is_empty_) {
+        window_tool_.reset();
+        return;
+    }
+    window_tool_ = tool;
     has_changed_ = true;
     if (!pending_) return;
     if (pending_->text.describes_tool()) {
@@ -114,6 +119,10 @@ void ToolNotes::change(int tool) {
 
 void ToolNotes::cut() {
     window_tool_.reset();
+    if (std::exchange(is_empty_, false) && pending_ && pending_->text.describes_tool()) {
+        attach(0, *pending_);
+        pending_.reset();
+    }
     if (has_changed_) pending_.reset();
 }
 
@@ -138,16 +147,36 @@ void ToolNotes::attach(int tool, const Note& note) {
     }
 }
 
-std::optional<double> ToolNotes::diameter_mm(int tool, double unit_of_program_mm) const {
+const ToolNotes::Note* ToolNotes::find(int tool) const {
     const auto known = index_.find(tool);
-    if (known == index_.end() || !notes_[known->second].second.text.is_for_compensation) return std::nullopt;
-    return notes_[known->second].second.text.diameter->mm(unit_of_program_mm);
+    return known == index_.end() ? nullptr : &notes_[known->second].second;
+}
+
+std::optional<double> ToolNotes::diameter_mm(int tool, double unit_of_program_mm) const {
+    const Note* note = find(tool);
+    if (note == nullptr || !note->text.is_for_compensation) return std::nullopt;
+    return note->text.diameter->mm(unit_of_program_mm);
+}
+
+std::string ToolNotes::no_diameter_text(int tool, const char* size) const {
+    const std::string number = std::to_string(tool);
+    const Note* note = find(tool);
+    if (note == nullptr) return "nothing states the " + std::string(size) + " of tool " + number;
+    return "line " + std::to_string(note->line) + " gives tool " + number + " a diameter of " +
+           size_text(*note->text.diameter) +
+           ", but not whether the control compensates all of it or the wear alone";
+}
+
+std::string ToolNotes::diameter_comment(int tool) const {
+    const Note* note = find(tool);
+    return "(T" + std::to_string(tool) + " D=" + (note == nullptr ? "10." : size_text(*note->text.diameter)) +
+           ")";
 }
 
 std::optional<double> ToolNotes::stated_diameter_mm(int tool, double unit_of_program_mm) const {
-    const auto known = index_.find(tool);
-    if (known == index_.end()) return std::nullopt;
-    return notes_[known->second].second.text.diameter->mm(unit_of_program_mm);
+    const Note* note = find(tool);
+    if (note == nullptr) return std::nullopt;
+    return note->text.diameter->mm(unit_of_program_mm);
 }
 
 std::vector<motion::DeclaredTool> ToolNotes::tools(double unit_of_program_mm, const std::string& source,

@@ -38,6 +38,11 @@ class ToolNotes {
     // Returns the diameter for radius compensation, mm; none if no text states it, or if the text says that
     // the control corrects wear alone.
     std::optional<double> diameter_mm(int tool, double unit_of_program_mm) const;
+    // Says why diameter_mm() has none: "nothing states the diameter of tool 2"; or the `radius`.
+    std::string no_diameter_text(int tool, const char* size = "diameter") const;
+    // Returns a comment that states the tool's diameter for compensation: "(T2 D=50)". Its size is that of
+    // the text about the tool, else 10 of the unit of the program.
+    std::string diameter_comment(int tool) const;
     // Returns the diameter that a text states for the tool, mm; none if no text does.
     std::optional<double> stated_diameter_mm(int tool, double unit_of_program_mm) const;
 
@@ -55,6 +60,7 @@ class ToolNotes {
         Note first, second;
     };
     void attach(int tool, const Note& note);
+    const Note* find(int tool) const;
 
     // Most different tools of a program (job/program_tools.hpp refuses more), and most conflicts.
     static constexpr std::size_t kMostTools = 1000, kMostConflicts = 100;
@@ -67,6 +73,7 @@ class ToolNotes {
     std::optional<Note> pending_;     // about the next tool
     std::optional<int> window_tool_;  // changed and has not cut yet
     bool window_has_note_ = false;
+    bool is_empty_ = false;  // T0 is in the spindle: a tool of that number, if it cuts, else none
     bool has_changed_ = false;
     bool expects_size_ = false;  // "Tool Size" stood before
 };

@@ -157,7 +157,7 @@ constexpr std::array kPhrases{
     Phrase{"SPHERIQUE", ball, false},
     Phrase{"ESFERIC", ball, false, Match::part},
     Phrase{"SFERIC", ball, false, Match::part},
-    Phrase{"KULIST", ball, false, Match::part},
+    Phrase{"KULIST", ball, true, Match::part},
     Phrase{"BULL", bull, false},
     Phrase{"BULLNOSE", bull, true},
     Phrase{"TORUS", bull, false, Match::part},
@@ -181,6 +181,8 @@ constexpr std::array kPhrases{
     Phrase{"FREZ", flat, true},
     Phrase{"FREZA", flat, true},
     Phrase{"FREES", flat, true},
+    Phrase{"WALCOWY", flat, true},
+    Phrase{"PALCOWY", flat, true},
 };
 // Of these nouns alone the shape is not known: an end mill, or any other.
 constexpr std::array<std::string_view, 3> kAnyTool{"CUTTER", "BIT", "MILL"};

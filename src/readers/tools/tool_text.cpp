@@ -89,13 +89,13 @@ class TextReader {
         return token(first).is_number() || (token(first).is_sign('-') && token(first + 1).is_number());
     }
 
-    // Returns the place of the number behind a key: `=`, `:`, `.`, `-`, `>` and `_` may stand between; or the
-    // number of tokens if there is none.
+    // Returns the place of the number behind a key: `=`, `:`, `.`, `-`, `>`, `+` and `_` may stand between;
+    // or the number of tokens if there is none.
     std::size_t number_behind(std::size_t i) const {
         for (std::size_t k = i + 1; k < tokens_.size() && k < i + 4; ++k) {
             if (tokens_[k].is_number()) return k;
             if (tokens_[k].kind == TextToken::Kind::word ||
-                std::string_view("=:.->_|#").find(tokens_[k].text[0]) == std::string_view::npos)
+                std::string_view("=:.->_|#+").find(tokens_[k].text[0]) == std::string_view::npos)
                 break;
         }
         return tokens_.size();
@@ -372,6 +372,8 @@ class TextReader {
         tool_.names_tool = tool_.names_tool || says_tool;
         // A bare size beside a number must follow it: (T1 5 mm below the clamp) is one, (T1 at 5 mm) none.
         if (plainness_ == Plainness::size && !tool_.names_tool && !is_behind_number_) tool_.diameter.reset();
+        // G38.2 Z-5 (probe): what the program does, and no tool of it.
+        if (tool_.shape == ToolShape::probe && !tool_.number && !is_about_tool_) tool_.names_tool = false;
         if (tool_.shape == ToolShape::turning || tool_.shape == ToolShape::probe) tool_.diameter.reset();
     }
 

@@ -169,6 +169,19 @@ TEST(GcodeFlow, RunsFanucSubprograms) {
     EXPECT_TRUE(warns_of(program_of("G21 G0 X0 Y0 Z0\nX1\nM99\n"), 3, "ends here"));
 }
 
+TEST(GcodeFlow, BeginsWithTheProgramThatTheOperatorStarts) {
+    const auto main_of = [](const std::string& first, const std::string& second) {
+        const motion::Program program = program_of("%\nO7" + first + "%\nO1 (MAIN)\n" + second + "%\n");
+        return program.moves.empty() ? 0 : program.moves.back().end.tip_mm.x;
+    };
+    const std::string part = "\nG21 G90 M3 F100\nG0 X0 Y0 Z0\nG1 X2\n";
+    const std::string other = "G21 G90 M3 F100\nG0 X0 Y0 Z0\nG1 X5\n";
+    EXPECT_EQ(main_of(part + "M99 (M30)\n", other + "M98 P7\nX6\nM30\n"), 6);
+    // The first one is a main program, or no other one is.
+    EXPECT_EQ(main_of(part + "M30\n", other + "M30\n"), 2);
+    EXPECT_EQ(main_of(part + "M99\n", other + "M99\n"), 2);
+}
+
 TEST(GcodeFlow, CountsDeletableLinesAsTheSwitchSays) {
     const std::string text = "G21 G90 M3 F100\nG0 X0 Y0 Z0\nG1\n/o1 if [0]\nX1\n/o1 endif\nX2\n";
     EXPECT_EQ(program_of(text).moves.size(), 2U);

@@ -76,6 +76,7 @@ TEST(GcodeMacro, CallsLinesAndRepeats) {
     EXPECT_DOUBLE_EQ(feed_of("M98 P100\nM30\n:0100\nX5\nM99\n"), 5);
     // Q: from a line of this program on, or of the called one.
     EXPECT_DOUBLE_EQ(feed_of("G91\nM98 Q100 L3\nM30\nN100 X2\nM99\n"), 6);
+    EXPECT_DOUBLE_EQ(feed_of("G91\nM98 P9 H20 L2\nM30\nN20 X50\nO9\nX60\nN20 X3\nM99\n"), 6);
     EXPECT_DOUBLE_EQ(feed_of("G91\nM98 P9 Q20 L2\nM30\nN20 X50\nO9\nX60\nN20 X3\nM99\n"), 6);
 }
 

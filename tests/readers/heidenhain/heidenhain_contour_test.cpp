@@ -59,6 +59,13 @@ TEST(HeidenhainContour, TakesTheProgrammedPathWhereNothingStatesTheRadius) {
     EXPECT_TRUE(warns_of(program, 4, "nothing states the radius of tool 1"));
 }
 
+TEST(HeidenhainContour, TakesTheRadiusFromAComment) {
+    const motion::Program program = conversational(
+        after_start("; T1 D=10 CR=0 - flat end mill\n3 L X+10 Y+0 RL\n4 L Y+50\n5 L X+0 R0\n"));
+    ASSERT_EQ(program.moves.size(), 3U);
+    expect_near(program.moves[1].end.tip_mm, {5, 50, 10}, 1e-12);
+}
+
 TEST(HeidenhainContour, RoundsAndChamfersCorners) {
     for (const auto& [corner, between] : {std::pair{"RND R5 F50", 2.5 * kPi}, {"CHF 5", std::sqrt(50.0)}}) {
         const motion::Program program =

@@ -282,6 +282,18 @@ TEST(Siemens, NamesToolsAndReadsTheirData) {
 }
 
 // Words that do not change the path, with a warning or without.
+TEST(Siemens, TakesTheStockAndTheTextsOfToolsFromTheProgram) {
+    const std::string head = "; T3 D=6 CR=0 - flat end mill\nT3 M6\n";
+    const motion::Program program =
+        siemens("WORKPIECE(,\"\",,\"BOX\",112,2,-20,-80,40,0,-10,30)\nG1 X5 F9\n");
+    ASSERT_TRUE(program.stock);
+    EXPECT_EQ(program.stock->box_mm.min, (Vec3{-10, 0, -20}));
+    EXPECT_EQ(program.stock->box_mm.max, (Vec3{40, 30, 2}));
+    EXPECT_FALSE(siemens("WORKPIECE(,\"\",,\"BOX\",0,2,-30,-80,-2,-2,184,170)\nG1 X5 F9\n").stock);
+    const motion::Program compensated = siemens(head + "F100\nG1 G41 X10 Y10\nY50\nG40 X0\n");
+    EXPECT_NEAR(feed_mm(compensated), std::hypot(7, 10) + 40 + 7, 1e-9);
+}
+
 TEST(Siemens, PassesOverWhatMovesNothing) {
     const std::string with = "G1 X10 F100\nX20\n";
     const double length = feed_mm(siemens(with));

@@ -30,6 +30,7 @@ const Form kForms[] = {
     {"T9 D=4.2 CR=0. TAPER=118deg - ZMIN=-11 - drill", 9, drill, 4.2, 0, 0, 118, 0},
     {"T4 D=6 CR=0 TAPER=45deg - ZMIN=-1 - chamfer mill", 4, chamfer, 6, 0, 0, 45, 0},
     {"#12 D=16 CR=0.8 - ZMIN=-3 - ZMAX=+10 - bull nose end mill", 12, bull, 16, 0, 0.8, 0, 0},
+    {"T2 D=+4 CR=+0 - ZMIN=-15 - flat end mill", 2, flat, 4, 0, 0, 0, 0},
     // SolidWorks CAM, CAMWorks, Mastercam
     // A wire gauge is no number of a tool.
     {" #14 [.182\"] DRILL, CARB, TSC ", kNoNumber, drill, 0.182, 25.4, 0, 0, 0},
@@ -162,11 +163,9 @@ TEST(ToolText, takes_a_bare_number_beside_the_noun_in_the_name_of_a_tool) {
         const char* name;
         ToolShape shape;
         double diameter;
-    } cases[] = {{"BOHRER_6.8", drill, 6.8},
-                 {"FRAESER_12", flat, 12},
-                 {"SCHAFTFRAESER_8", flat, 8},
-                 {"8.5 SPIRALBOHRER", drill, 8.5},
-                 {"GEWINDEBOHRER_M8", tap, 8}};
+    } cases[] = {{"BOHRER_6.8", drill, 6.8},    {"FRAESER_12", flat, 12},
+                 {"SCHAFTFRAESER_8", flat, 8},  {"8.5 SPIRALBOHRER", drill, 8.5},
+                 {"Frez_walcowy_12", flat, 12}, {"GEWINDEBOHRER_M8", tap, 8}};
     for (const auto& c : cases) {
         const ToolText tool = read_tool_text(c.name, true);
         ASSERT_TRUE(tool.describes_tool()) << c.name;
@@ -205,6 +204,22 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     alone.read("6 mm end mill", 1);
     alone.cut();
     EXPECT_EQ(only_tool(alone).number, 0);
+    ToolNotes emptied;  // T0 takes the tool out: the text on the line of the next change is that tool's
+    emptied.change(0);
+    emptied.read("6 mm end mill", 2);
+    emptied.change(3);
+    EXPECT_EQ(only_tool(emptied).number, 3);
+    ToolNotes zero;  // T0 cuts: it is a tool of that number
+    zero.change(0);
+    zero.read("6 mm end mill", 2);
+    zero.cut();
+    zero.change(3);
+    EXPECT_EQ(only_tool(zero).number, 0);
+    ToolNotes probed;  // what a move does is no tool
+    probed.read("probe", 1);
+    probed.change(1);
+    probed.read("Change Tool: Diameter: 6 mm", 3);
+    EXPECT_EQ(only_tool(probed).diameter_mm, 6);
 }
 
 TEST(ToolNotes, join_a_header_of_several_lines) {
@@ -307,6 +322,15 @@ TEST(ToolNotes, give_radius_compensation_only_diameters_that_the_control_uses) {
     EXPECT_EQ(notes.diameter_mm(2, 1), 8);
     EXPECT_FALSE(notes.diameter_mm(3, 1));
     EXPECT_FALSE(notes.diameter_mm(4, 1));
+    EXPECT_EQ(notes.no_diameter_text(3),
+              "line 3 gives tool 3 a diameter of 8, but not whether the control compensates all of it or the "
+              "wear alone");
+    EXPECT_EQ(notes.diameter_comment(3), "(T3 D=8)");
+    EXPECT_EQ(notes.no_diameter_text(4, "radius"), "nothing states the radius of tool 4");
+    // What is advised states it.
+    ToolNotes advised;
+    advised.read(notes.diameter_comment(3), 1);
+    EXPECT_EQ(advised.diameter_mm(3, 1), 8);
 }
 
 }  // namespace

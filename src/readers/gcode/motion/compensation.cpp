@@ -269,10 +269,10 @@ Result<double> compensated_diameter(Command& command, Code code, const State& st
     if (output.first(Note::compensation_unknown, static_cast<int>(number))) {
         output.warn(
             command.line(),
-            code_text('G', code.tenths) + ": nothing states the diameter of tool " +
-                std::to_string(static_cast<int>(number)) +
-                ", so the programmed path is milled as it stands; give the tool to the job, or write a "
-                "comment like (T1 D=10.)");
+            code_text('G', code.tenths) + ": " + output.notes.no_diameter_text(static_cast<int>(number)) +
+                ", so the programmed path is milled as it stands; give the tool to the job, or write the "
+                "comment " +
+                output.notes.diameter_comment(static_cast<int>(number)));
     }
     return 0.0;
 }
@@ -335,12 +335,12 @@ Result<void> begin_compensation(Command& command, State& state, Output& output) 
     const auto found = compensated_diameter(command, *code, state, output);
     if (!found) return std::unexpected(found.error());
     const double diameter_mm = *found;
-    if (!kLimits.offset_diameter.range.contains(diameter_mm)) {
+    // A negative diameter turns the side.
+    if (!kLimits.offset_diameter.range.contains(std::abs(diameter_mm))) {
         const Word* word = command.use('D');
-        return output.refuse(
-            command.line(), word == nullptr ? code->column : word->column,
-            out_of_range(kLimits.offset_diameter, diameter_mm),
-            range_remedy(kLimits.offset_diameter) + "; use the other side for a negative one");
+        return output.refuse(command.line(), word == nullptr ? code->column : word->column,
+                             out_of_range(kLimits.offset_diameter, std::abs(diameter_mm)),
+                             range_remedy(kLimits.offset_diameter));
     }
     if (diameter_mm != 0 && !state.knows_tip()) {
         if (auto known = require_start(command, state, output); !known) return known;

@@ -79,7 +79,9 @@ Result<void> move_to_machine_position(Command& command, State& state, Output& ou
         }
         return {};
     }
-    if (state.incremental) {
+    // Fanuc controls ignore G53 in G91 or move, by the control; where the tool is then, only the machine
+    // knows.
+    if (state.incremental && output.options.dialect != GcodeDialect::fanuc) {
         return output.refuse(command.line(), column, "G53 (machine coordinates) does not go with G91",
                              "write G90 before it");
     }

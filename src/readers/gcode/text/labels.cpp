@@ -67,6 +67,26 @@ Result<std::string> read_label(Cursor& cursor, const Parameters* parameters, boo
     return label;
 }
 
+// The last M2, M30 or M99 of a program; 0: none.
+int last_end(std::string_view program) {
+    TextLines lines(program);
+    int last = 0;
+    while (const auto line = lines.next()) {
+        int depth = 0;
+        for (std::size_t at = 0; at < line->size() && (*line)[at] != ';'; ++at) {
+            const char c = (*line)[at];
+            if (c == '(' || c == ')') depth = std::max(depth + (c == '(' ? 1 : -1), 0);
+            if (depth > 0 || to_upper(c) != 'M') continue;
+            int code = 0;
+            std::size_t end = at + 1;
+            while (end < line->size() && is_digit((*line)[end]) && code < 1000)
+                code = 10 * code + ((*line)[end++] - '0');
+            if (end > at + 1 && (code == 2 || code == 30 || code == 99)) last = code;
+        }
+    }
+    return last;
+}
+
 }  // namespace
 
 std::string_view spelling(Keyword keyword) {
@@ -222,6 +242,22 @@ int Labels::find_sub(std::string_view label) const {
 int Labels::find_program(std::string_view label) const {
     const auto found = programs_.find(label);
     return found == programs_.end() ? -1 : found->second;
+}
+
+int Labels::main_program() const {
+    std::vector<int> programs;
+    for (int index = 0; index < static_cast<int>(marks_.size()); ++index)
+        if ((*this)[index].keyword == Keyword::none) programs.push_back(index);
+    if (programs.empty()) return -1;
+    for (std::size_t n = 0; n < programs.size(); ++n) {
+        const std::string_view from = (*this)[programs[n]].after.rest();
+        const std::string_view behind =
+            n + 1 < programs.size() ? (*this)[programs[n + 1]].at.rest() : std::string_view();
+        const int code = last_end(from.substr(0, from.size() - behind.size()));
+        if (code == 2 || code == 30) return programs[n];
+        if (n == 0 && code != 99) break;
+    }
+    return programs.front();
 }
 
 }  // namespace tribo::readers::gcode

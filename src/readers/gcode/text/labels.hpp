@@ -71,6 +71,9 @@ class Labels {
     // Returns the first subroutine or program of that label; -1 if there is none.
     int find_sub(std::string_view label) const;
     int find_program(std::string_view label) const;
+    // Returns the program that the operator starts: the first one of the text, but where that ends with M99,
+    // as subprograms do, the first one behind it that ends with M2 or M30. -1 without a program number.
+    int main_program() const;
 
   private:
     void add(Landmark mark);
