@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 // npm run measure [JOB]: what a visitor of `tribo live` waits for, in headless Chromium, as JSON: until the first picture (the blank)
 // and until the part's own surface is on the screen. At 1.6 Mbit/s and 150 ms with a processor four times slower, and without all that.
-// Medians of TRIBO_RUNS (5) runs. Then the gaps in the sound of the static page, alone and beside two busy processes.
+// Medians of TRIBO_RUNS (5) runs. The same of the static page's first visit, until the picture that stands for the part is on the
+// screen. Then the gaps in the sound of the static page, alone and beside two busy processes.
 // docs/mill-page.md has the numbers.
 import { join } from "node:path";
 import { launch, slowDown } from "../testing/browser.js";
 import { startLive } from "../testing/live.js";
+import { serveFolder } from "../testing/server.js";
 import { soundGaps, type Gaps } from "./sound_gaps.js";
-import { ROOT } from "../tools/places.js";
+import { ROOT, SITE } from "../tools/places.js";
 
 /** What was drawn, and when it was on the screen, ms. */
-type Seen = Partial<Record<"first" | "part", number>>;
+type Seen = Partial<Record<"first" | "part" | "poster", number>>;
 declare global {
   interface Window {
     seen: Seen;
@@ -40,15 +42,27 @@ function watch(partCorners: number): void {
   };
 }
 
-async function visit(throttled: boolean): Promise<Seen> {
+/** In the static page. */
+function watchPoster(): void {
+  window.seen = {};
+  new PerformanceObserver((list) => {
+    const [shown] = list.getEntries() as (PerformanceEntry & { renderTime: number })[];
+    if (shown) window.seen.poster = shown.renderTime;
+  }).observe({ type: "element", buffered: true });
+}
+
+async function visit(
+  throttled: boolean,
+  [address, script, until]: [string, (corners: number) => void, keyof Seen] = [url, watch, "part"],
+): Promise<Seen> {
   const browser = await launch();
   const page = await (await browser.newContext({ viewport: { width: 1280, height: 800 } })).newPage();
-  await page.addInitScript(watch, PART_CORNERS);
+  await page.addInitScript(script, PART_CORNERS);
   if (throttled) await slowDown(page);
   // A visitor's browser is up already.
   await page.waitForTimeout(1500);
-  await page.goto(url, { waitUntil: "commit" });
-  await page.waitForFunction(() => (window.seen.part ?? 0) > 0, null, { polling: 50 });
+  await page.goto(address, { waitUntil: "commit" });
+  await page.waitForFunction((what) => (window.seen[what] ?? 0) > 0, until, { polling: 50 });
   const seen = await page.evaluate(() => window.seen);
   await browser.close();
   return seen;
@@ -66,6 +80,11 @@ for (const [name, throttled] of [
   measured[`part_${name}_ms`] = median(visits.map((seen) => seen.part));
 }
 engine.kill();
+const site = await serveFolder(SITE);
+const posters: number[] = [];
+for (let n = 0; n < RUNS; ++n) posters.push((await visit(true, [`${site.root}/mill/`, watchPoster, "poster"])).poster!);
+measured.first_picture_static_throttled_ms = median(posters);
+await site.close();
 for (const [name, busy] of [
   ["alone", 0],
   ["beside_two", 2],

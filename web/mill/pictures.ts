@@ -9,19 +9,17 @@ import { launch } from "../testing/browser.js";
 import { PROGRAM, ROOT } from "../tools/places.js";
 import { EXAMPLES, HIGH, pictureOf, WIDE } from "./src/gallery/list.js";
 
-const QUALITY = 0.82;
+// Of the gallery, and of the part that stands for the first one until the page has milled it.
+const SMALL = { wide: WIDE, high: HIGH, quality: 0.82 };
+const POSTER = { wide: 2 * WIDE, high: 2 * HIGH, quality: 0.6 };
 const wanted = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "tribo-pictures-"));
 const browser = await launch();
 const page = await browser.newPage();
-for (const example of EXAMPLES) {
-  if (wanted.length > 0 && !wanted.includes(example.job)) continue;
-  const job = join(ROOT, "examples", example.folder, example.job);
-  execFileSync(PROGRAM, ["render", job, "--out", join(folder, example.job), "--only", "report"], { stdio: "ignore" });
-  const report = readFileSync(join(folder, example.job, "report.html"), "utf8");
-  const png = /src="(data:image\/png;base64,[^"]*)"/.exec(report)![1]!;
+
+async function keep(name: string, png: string, size: typeof SMALL): Promise<void> {
   const webp = await page.evaluate(
-    async ([source, wide, high, quality]) => {
+    async ([source, { wide, high, quality }]) => {
       const picture = new Image();
       picture.src = source;
       await picture.decode();
@@ -35,11 +33,21 @@ for (const example of EXAMPLES) {
       c.drawImage(picture, (wide - w) / 2, (high - h) / 2, w, h);
       return small.toDataURL("image/webp", quality).split(",")[1]!;
     },
-    [png, WIDE, HIGH, QUALITY] as const,
+    [png, size] as const,
   );
   const bytes = Buffer.from(webp, "base64");
-  writeFileSync(join(import.meta.dirname, "pictures", pictureOf(example)), bytes);
-  console.log(`${pictureOf(example)} ${bytes.length}`);
+  writeFileSync(join(import.meta.dirname, "pictures", name), bytes);
+  console.log(`${name} ${bytes.length}`);
+}
+
+for (const example of EXAMPLES) {
+  if (wanted.length > 0 && !wanted.includes(example.job)) continue;
+  const job = join(ROOT, "examples", example.folder, example.job);
+  execFileSync(PROGRAM, ["render", job, "--out", join(folder, example.job), "--only", "report"], { stdio: "ignore" });
+  const report = readFileSync(join(folder, example.job, "report.html"), "utf8");
+  const png = /src="(data:image\/png;base64,[^"]*)"/.exec(report)![1]!;
+  await keep(pictureOf(example), png, SMALL);
+  if (example === EXAMPLES[0]) await keep("poster.webp", png, POSTER);
 }
 await browser.close();
 rmSync(folder, { recursive: true, force: true });

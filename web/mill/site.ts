@@ -14,5 +14,7 @@ for (const name of readdirSync(MILL_PAGE)) {
 }
 const page = readFileSync(join(out, "index.html"), "utf8");
 const none = page.replace('name="tribo-engine" content="here"', 'name="tribo-engine" content="none"');
+const framed = none.replace('<img id="poster"', '<img id="poster" src="./poster.webp" fetchpriority="high"');
+if (framed === none) throw new Error("the page has no place for its first picture");
 if (none === page) throw new Error("the page does not say who mills");
-writeFileSync(join(out, "index.html"), withPolicy(none));
+writeFileSync(join(out, "index.html"), withPolicy(framed));

@@ -26,6 +26,8 @@ function modules(): Plugin {
         const from = join(import.meta.dirname, "pictures", picture);
         if (existsSync(from)) copyFileSync(from, join(MILL_PAGE, besideAs(picture)));
       }
+      const poster = "poster.webp";
+      copyFileSync(join(import.meta.dirname, "pictures", poster), join(MILL_PAGE, poster));
       for (const name of readdirSync(MILL_PAGE)) {
         if (!/\.(html|js|css|wasm|txt)$/.test(name)) continue;
         const bytes = readFileSync(join(MILL_PAGE, name));

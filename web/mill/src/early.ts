@@ -2,13 +2,15 @@
 // Starts slow work that needs little code while the script of the page is loading: the graphics of the browser, and
 // the connection to the engine.
 
+import { hidePoster, showPoster } from "./film/first_visit.js";
 import { Connection } from "./sources/connection.js";
 import { loadTexts } from "./texts/texts.js";
 import { element } from "@tribo/ui/dom";
 
 export const hasEngine = document.querySelector<HTMLMetaElement>('meta[name="tribo-engine"]')?.content !== "none";
 export const canvas = element<HTMLCanvasElement>("scene");
-export const context = canvas.getContext("webgl2", { alpha: true, antialias: true }) ?? undefined;
+/** Made before main.ts is loaded; undefined: the browser has no graphics. */
+export let context: WebGL2RenderingContext | undefined;
 
 let connection: Connection | undefined;
 /** Returns the connection; it is opened at the first call. */
@@ -25,4 +27,12 @@ if (hasEngine) {
   }).observe({ type: "resource", buffered: true });
 }
 
-void loadTexts().then(() => import("./main.js"));
+// The browser draws nothing while it begins the graphics: the poster comes first.
+async function begin(): Promise<void> {
+  if (hasEngine) hidePoster();
+  else await showPoster();
+  context = canvas.getContext("webgl2", { alpha: true, antialias: true }) ?? undefined;
+  await loadTexts();
+  await import("./main.js");
+}
+void begin();

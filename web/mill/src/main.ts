@@ -10,6 +10,7 @@ import { Finger } from "./touch/finger.js";
 import { listenToCompare } from "./compare/compare.js";
 import { ChatterPanel } from "./panels/chatter.js";
 import { Film } from "./film/film.js";
+import { hidePoster } from "./film/first_visit.js";
 import { History } from "./panels/history.js";
 import { listenToKeys } from "./panels/keys.js";
 import { fileName, listenToKeep } from "./keep/keep.js";
@@ -209,6 +210,7 @@ const film = new Film(
     },
     send,
     colour: (by) => colours.choose(by),
+    reveal: () => hidePoster(true),
     glow(on) {
       program.glow(on ? (verdict.worst?.line ?? 0) : 0);
       element("verdict").classList.toggle("glowing", on);
@@ -323,6 +325,7 @@ if (!hasEngine) {
     if (opened) return;
     const why = element("notice").textContent;
     if (await mill(await orderOf(EXAMPLES[0]!))) film.begin();
+    else film.giveUp();
     if (why) say(why);
   });
   addEventListener("hashchange", () => void reopen.followLink());

@@ -22,6 +22,7 @@ class FakePage {
   bare = false;
   colours = "plain";
   glows = false;
+  revealed = false;
   readonly phases: Phase[] = [];
   readonly shown: string[] = [];
   rows: Row[] = [];
@@ -61,6 +62,7 @@ class FakePage {
       },
       send: (command: Command) => this.obey(command),
       colour: (by) => (this.colours = by),
+      reveal: () => (this.revealed = true),
       glow: (on) => (this.glows = on),
     };
   }
@@ -210,11 +212,18 @@ describe.runIf(hasMillPage)("a first visit", () => {
     "begins with the finished part, plays the film with sound, and ends with the verdict",
     async () => {
       const { context, page } = await visit();
+      // A picture stands for the part until that is milled, and there is no panel beside it.
+      await page.waitForSelector("#poster", { timeout: PATIENCE_MS });
+      expect(await page.evaluate(phase)).toBe("prelude");
+      await page.waitForFunction(() => (document.querySelector<HTMLImageElement>("#poster")?.naturalWidth ?? 0) > 300);
+      expect(await page.$eval("#scene", (scene) => getComputedStyle(scene).opacity)).not.toBe("1");
       await page.waitForSelector("#hear-it", { timeout: PATIENCE_MS });
       // Milled to its end, without a panel and with nothing else to press.
       await page.waitForFunction(() => document.getElementById("removed")!.textContent === "54.2 cm³", null, {
         timeout: PATIENCE_MS,
       });
+      await page.waitForFunction(() => document.querySelector("#poster, .poster-fades") === null);
+      await page.waitForFunction(() => getComputedStyle(document.getElementById("scene")!).opacity === "1");
       for (const id of ["begin", "cards", "play", "examples"]) expect(await page.isVisible(`#${id}`)).toBe(false);
       expect(await violations(page)).toEqual([]);
       await page.click("#hear-it");
@@ -257,6 +266,7 @@ describe.runIf(hasMillPage)("a first visit", () => {
         else if (act === "click") await page.mouse.click(40, 200);
         else await page.click("#skip-film");
         await page.waitForSelector("body:not([data-film])");
+        expect(await page.$("#poster")).toBeNull();
         await page.waitForSelector("#begin", { timeout: PATIENCE_MS });
         await page.waitForFunction(() => document.getElementById("removed")!.textContent === "0.00 cm³", null, {
           timeout: PATIENCE_MS,
@@ -288,6 +298,7 @@ describe.runIf(hasMillPage)("a first visit", () => {
       await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
       await page.waitForTimeout(500);
       expect(await page.evaluate(phase)).toBeUndefined();
+      expect(await page.$("#poster")).toBeNull();
       await page.click("#film");
       await page.waitForSelector("body[data-film=plays]");
       await page.keyboard.press("Escape");

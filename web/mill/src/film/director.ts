@@ -17,6 +17,8 @@ export interface Stage {
   readonly rows: readonly Row[];
   readonly send: (command: Command) => void;
   readonly colour: (by: Colouring) => void;
+  /** The part may be seen: what stood for it goes. */
+  readonly reveal: () => void;
   /** Marks the line that the verdict names first. */
   readonly glow: (on: boolean) => void;
 }
@@ -70,6 +72,9 @@ export const PRELUDE: Shot[] = [
     begin: ({ scene, send, duration }) => {
       scene.setBare(true);
       send({ op: "seek", t_s: duration });
+    },
+    each: (stage) => {
+      if (atEnd(stage)) stage.reveal();
     },
     camera: ({ scene }, elapsed) =>
       scene.partPose(GRAZING.clone().applyAxisAngle(new Vector3(0, 0, 1), TURN * elapsed)),

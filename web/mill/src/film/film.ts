@@ -2,11 +2,10 @@
 // The buttons of the film. The first visit begins with its prelude; any key, a click or a button ends it.
 
 import { element } from "@tribo/ui/dom";
-import { recall, remember } from "../page.js";
 import { t } from "../texts/texts.js";
 import type { Director, Phase, Stage } from "./director.js";
+import { hasPoster, hidePoster, isFilmNew, isStill, rememberFilm } from "./first_visit.js";
 
-const SEEN = "film";
 const OWN_BUTTONS = "#film-buttons, #film";
 // Keys that lead to the buttons, or do nothing alone.
 const WAYS = new Set(["Tab", "Shift", "Control", "Alt", "Meta"]);
@@ -51,7 +50,7 @@ export class Film {
 
   /** On the first visit, where motion is welcome: the prelude, as soon as there is a part. */
   begin(): void {
-    if (recall(SEEN) || isStill()) return;
+    if (!isFilmNew()) return;
     const wait = () => {
       if (this.stage.state) void this.play("PRELUDE");
       else requestAnimationFrame(wait);
@@ -63,11 +62,18 @@ export class Film {
     this.director?.skip();
   }
 
+  /** There is no part to begin with: the page is without film and picture. */
+  giveUp(): void {
+    if (!hasPoster()) return;
+    hidePoster();
+    delete document.body.dataset.film;
+  }
+
   private async play(which: "PRELUDE" | "FILM"): Promise<void> {
     if (this.stage.duration === 0) return;
     // The browser asks for the gesture that is being handled.
     if (which === "FILM") void this.actions.hear();
-    remember(SEEN, "seen");
+    rememberFilm();
     try {
       const shots = await import("./director.js");
       this.director ??= this.open(shots.Director);
@@ -95,16 +101,14 @@ export class Film {
     else delete document.body.dataset.film;
     element("film-buttons").hidden = !this.plays;
     element("hear-it").hidden = phase !== "prelude";
+    if (phase !== "prelude") hidePoster();
     if (phase === "ended") this.actions.invite();
     if (phase === "skipped" && before === "prelude") this.actions.rewind();
   }
 
   private interrupt(): void {
     if (this.plays) this.skip();
+    else if (hasPoster()) this.giveUp();
     else if (this.phase === "ended") this.stage.glow(false);
   }
-}
-
-function isStill(): boolean {
-  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// The first visit of the page without an engine: it begins with the film, and until there is a part to show, with a picture of it.
+
+import { afterPicture } from "@tribo/ui/frame";
+import { recall, remember } from "../page.js";
+
+const SEEN = "film";
+const FADE_MS = 500;
+
+/** Motion is not wanted. */
+export const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
+
+/** The film was not begun before, and may move. */
+export const isFilmNew = (): boolean => recall(SEEN) === "" && !isStill();
+export const rememberFilm = (): void => remember(SEEN, "seen");
+
+const poster = () => document.querySelector<HTMLImageElement>("#poster");
+
+/** Shows the picture of the first example's part, as the film will begin; a link opens another job. Waits until it is drawn. */
+export async function showPoster(): Promise<void> {
+  const picture = poster();
+  if (!picture || !isFilmNew() || location.hash !== "") return hidePoster();
+  document.body.dataset.film = "prelude";
+  picture.hidden = false;
+  try {
+    await picture.decode();
+    await new Promise<void>((drawn) => afterPicture(drawn));
+  } catch {
+    hidePoster();
+  }
+}
+
+/** Whether the picture still stands for the part. */
+export const hasPoster = (): boolean => poster()?.hidden === false;
+
+/** Ends it, at once or with a fade; the page is as it is without the picture. */
+export function hidePoster(fades = false): void {
+  const picture = poster();
+  if (!picture) return;
+  picture.id = "";
+  picture.classList.add("poster-fades");
+  setTimeout(() => picture.remove(), fades ? FADE_MS : 0);
+}
