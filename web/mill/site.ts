@@ -14,7 +14,10 @@ for (const name of readdirSync(MILL_PAGE)) {
 }
 const page = readFileSync(join(out, "index.html"), "utf8");
 const none = page.replace('name="tribo-engine" content="here"', 'name="tribo-engine" content="none"');
-const framed = none.replace('<img id="poster"', '<img id="poster" src="./poster.webp" fetchpriority="high"');
+// Where motion is not wanted there is no film, and no picture before it.
+const poster = `<picture id="poster" hidden><source media="(prefers-reduced-motion: reduce)" srcset="data:," /><img alt=""
+ src="./poster.webp" fetchpriority="high" elementtiming="poster" /></picture>`;
+const framed = none.replace('<picture id="poster" hidden></picture>', poster);
 if (framed === none) throw new Error("the page has no place for its first picture");
 if (none === page) throw new Error("the page does not say who mills");
 writeFileSync(join(out, "index.html"), withPolicy(framed));

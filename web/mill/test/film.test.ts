@@ -213,9 +213,11 @@ describe.runIf(hasMillPage)("a first visit", () => {
     async () => {
       const { context, page } = await visit();
       // A picture stands for the part until that is milled, and there is no panel beside it.
-      await page.waitForSelector("#poster", { timeout: PATIENCE_MS });
+      await page.waitForSelector("#poster img", { timeout: PATIENCE_MS });
       expect(await page.evaluate(phase)).toBe("prelude");
-      await page.waitForFunction(() => (document.querySelector<HTMLImageElement>("#poster")?.naturalWidth ?? 0) > 300);
+      await page.waitForFunction(
+        () => (document.querySelector<HTMLImageElement>("#poster img")?.naturalWidth ?? 0) > 300,
+      );
       expect(await page.$eval("#scene", (scene) => getComputedStyle(scene).opacity)).not.toBe("1");
       await page.waitForSelector("#hear-it", { timeout: PATIENCE_MS });
       // Milled to its end, without a panel and with nothing else to press.

@@ -14,7 +14,7 @@ export const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduc
 export const isFilmNew = (): boolean => recall(SEEN) === "" && !isStill();
 export const rememberFilm = (): void => remember(SEEN, "seen");
 
-const poster = () => document.querySelector<HTMLImageElement>("#poster");
+const poster = () => document.getElementById("poster");
 
 /** Shows the picture of the first example's part, as the film will begin; a link opens another job. Waits until it is drawn. */
 export async function showPoster(): Promise<void> {
@@ -23,7 +23,7 @@ export async function showPoster(): Promise<void> {
   document.body.dataset.film = "prelude";
   picture.hidden = false;
   try {
-    await picture.decode();
+    await picture.querySelector("img")!.decode();
     await new Promise<void>((drawn) => afterPicture(drawn));
   } catch {
     hidePoster();
