@@ -8,6 +8,7 @@ namespace {
 
 // Numbers of offsets, tools and times, extrusion of printers: alone they move no axis.
 constexpr std::string_view kHarmless = "DEHLPQ";
+constexpr int kRigidTapping = 290;
 
 std::unexpected<Error> refuse_unused(const Command& command, const Word& word, const Output& output) {
     const std::string letter(1, word.letter);
@@ -50,6 +51,8 @@ void note_writing(const Block& block, Output& output) {
 void pass_unknown_codes(Command& command, Output& output) {
     if (command.unknown_m().empty()) return;
     for (const Code code : command.unknown_m()) {
+        // M29 S500: the tapping that follows is rigid.
+        if (code.tenths == kRigidTapping && output.options.dialect == GcodeDialect::fanuc) continue;
         if (!output.first(Note::unknown_m, code.tenths)) continue;
         output.warn(command.line(), code_text('M', code.tenths) +
                                         " is not known: it is taken as a switch of the machine that moves "
@@ -82,7 +85,10 @@ Result<void> pass_unused_words(Command& command, State& state, Output& output) {
                                      "write G40 before it, and G41 or G42 beside D");
             }
             state.offset_number = word->value;
+            // On Fanuc controls it holds for the next G41.
+            if (output.options.dialect == GcodeDialect::fanuc) continue;
         }
+        if (word->letter == 'H' && word->value == 0) continue;  // no offset
         if (!output.first(Note::unused_word, word->letter)) continue;
         std::string text = std::string(1, word->letter) + " is used by no code of its block: it is left out";
         if (word->letter == 'E') text += "; a program with many E words is one for a printer";

@@ -52,6 +52,11 @@ std::optional<double> Output::tool_diameter_mm(int number, double unit_of_progra
     return notes.diameter_mm(number, unit_of_program_mm);
 }
 
+bool Output::is_diameter_of_text(int number, double unit_of_program_mm) const {
+    return !given_.contains(number) && !given_.contains(0) && !declared_.contains(number) &&
+           notes.diameter_mm(number, unit_of_program_mm);
+}
+
 std::optional<double> Output::tool_length_mm(int number) const {
     const auto tool = given_.find(number);
     return tool == given_.end() ? std::nullopt : tool->second.length_mm;

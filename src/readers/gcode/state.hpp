@@ -95,6 +95,11 @@ struct Compensation {
     double curvature_per_mm = 0;        // the same
     Element last;                       // the last move, offset; its end may still be shortened
     std::vector<motion::Move> waiting;  // the last move, and the moves along the tool axis after it
+
+    // A comment states the radius, and D may hold the wear alone. Then both paths are kept, as programmed and
+    // as compensated, until it is known which one is meant.
+    bool is_of_text = false;
+    std::vector<motion::Move> programmed, compensated;
 };
 
 // Rotary axes and tool tip control (motion/rotary.hpp).
@@ -288,6 +293,8 @@ enum class Note {
     spindle_number,
     wrong_spindle,
     compensation_unknown,
+    compensation_of_text,
+    compensation_of_wear,
     compensation_in_space,
     centres,
     pitch,
@@ -345,11 +352,14 @@ class Output {
     std::string_view text;              // of the program
     std::optional<MachineRun> machine;  // absent: a machine of three axes
     ToolNotes notes;                    // tools in comments
+    std::set<int> wear_tools;  // whose D holds the wear alone, though a comment states their diameter
 
     // Adds a move in the frame of the stock.
     Result<void> append(const motion::Move& move);
     // From the options or the program; absent: neither gives it.
     std::optional<double> tool_diameter_mm(int number, double unit_of_program_mm) const;
+    // True if only a comment states it.
+    bool is_diameter_of_text(int number, double unit_of_program_mm) const;
     std::optional<double> tool_length_mm(int number) const;
     void declare_tool(const GcodeTool& tool) { declared_[tool.number] = tool; }
 

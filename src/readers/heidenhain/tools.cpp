@@ -120,8 +120,10 @@ void Interpreter::number_tools() {
 int Interpreter::number_of_tool(const std::string& name) {
     const auto known = named_tools_.find(name);
     if (known != named_tools_.end()) return known->second;
-    int number = 1;
-    while (numbered_tools_.contains(number)) ++number;
+    // That of the text with its name, else one that nothing has.
+    const auto stated = path_.notes.number_of(name);
+    int number = stated.value_or(1);
+    while (!stated && (numbered_tools_.contains(number) || path_.notes.has(number))) ++number;
     numbered_tools_.insert(number);
     named_tools_[name] = number;
     path_.notes.name(number, name, line_.number);

@@ -126,7 +126,9 @@ class Tokenizer {
         std::size_t start = at_;
         while (start < text_.size() && is_blank(text_[start])) ++start;
         const bool is_quoted = !tokens_.empty() && tokens_.back().is_sign('"');
-        if (start < text_.size() && text_[start] == '"' && !is_quoted) {
+        // 63 "PLANFR63": the quote begins a name.
+        const bool begins_name = start > at_ && start + 1 < text_.size() && is_letter(text_[start + 1]);
+        if (start < text_.size() && text_[start] == '"' && !is_quoted && !begins_name) {
             token.unit_mm = kInch;
             at_ = start + 1;
             return;

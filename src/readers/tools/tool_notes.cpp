@@ -7,6 +7,8 @@
 
 #include "base/limits.hpp"
 #include "readers/text/decimal_text.hpp"
+#include "readers/text/text_lines.hpp"
+#include "readers/tools/folded_text.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -70,6 +72,10 @@ void ToolNotes::read(std::string_view text, int line) {
         tool.names_tool = true;
     }
     expects_size_ = tool.asks_for_size;
+    if (keep_names(text, note)) {
+        lines_.insert(line);
+        return;
+    }
     if (tool.number && tool.diameter) {
         lines_.insert(line);
         attach(*tool.number, note);
@@ -95,7 +101,44 @@ void ToolNotes::read(std::string_view text, int line) {
     pending_ = note;
 }
 
+// Keeps what the text says for the names in it. True if it is about a name in quotes and no number: no other
+// tool is meant then.
+bool ToolNotes::keep_names(std::string_view text, const Note& note) {
+    if (!note.text.diameter) return false;
+    const std::string all = folded(text);
+    if (note.text.number && texts_of_numbers_.size() < kMostTools)
+        texts_of_numbers_.emplace_back(*note.text.number, all);
+    bool has_name = false;
+    for (std::size_t open = all.find('"'); open != std::string::npos; open = all.find('"', open + 1)) {
+        const std::size_t close = all.find('"', open + 1);
+        const bool begins = open == 0 || is_blank(all[open - 1]) || all[open - 1] == '=';
+        if (close == std::string::npos || !begins || !is_letter(all[open + 1])) continue;
+        has_name = true;
+        if (named_.size() < kMostTools) named_.emplace(all.substr(open + 1, close - open - 1), note);
+        open = close;
+    }
+    return has_name && !note.text.number;
+}
+
+std::optional<int> ToolNotes::number_of(std::string_view name) const {
+    const std::string wanted = folded(name);
+    if (wanted.empty()) return std::nullopt;
+    const auto is_part = [](char c) { return is_letter(c) || is_digit(c) || c == '_' || c == '.'; };
+    for (const auto& [number, text] : texts_of_numbers_) {
+        for (std::size_t at = text.find(wanted); at != std::string::npos; at = text.find(wanted, at + 1)) {
+            const std::size_t end = at + wanted.size();
+            if ((at == 0 || !is_part(text[at - 1])) && (end == text.size() || !is_part(text[end])))
+                return number;
+        }
+    }
+    return std::nullopt;
+}
+
 void ToolNotes::name(int number, std::string_view name, int line) {
+    if (const auto known = named_.find(folded(name)); known != named_.end()) {
+        attach(number, known->second);
+        return;
+    }
     Note note{read_tool_text(name, true), line};
     if (note.text.diameter && !index_.contains(number)) attach(number, note);
 }
@@ -156,6 +199,11 @@ std::optional<double> ToolNotes::diameter_mm(int tool, double unit_of_program_mm
     const Note* note = find(tool);
     if (note == nullptr || !note->text.is_for_compensation) return std::nullopt;
     return note->text.diameter->mm(unit_of_program_mm);
+}
+
+int ToolNotes::line_of(int tool) const {
+    const Note* note = find(tool);
+    return note == nullptr ? 0 : note->line;
 }
 
 std::string ToolNotes::no_diameter_text(int tool, const char* size) const {

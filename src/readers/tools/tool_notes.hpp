@@ -28,8 +28,14 @@ class ToolNotes {
     void number_up_to(int largest) { largest_number_ = largest; }
     // Reads a comment, a message or the name of a tool; each line once, though a loop may run it again.
     void read(std::string_view text, int line);
-    // Reads the name under which a program calls tool `number`.
+    // Reads the name under which a program calls tool `number`: a text about that name describes it, else the
+    // name itself.
     void name(int number, std::string_view name, int line);
+    // Returns the number of the text that holds this name: T2 = MILL_D10.
+    std::optional<int> number_of(std::string_view name) const;
+    bool has(int number) const { return index_.contains(number); }
+    // Returns the line of the text about the tool; 0: none.
+    int line_of(int tool) const;
     // Another tool comes into the spindle; maybe under the number of the one before.
     void change(int tool);
     // The tool in the spindle begins to cut: what is written from now on is about the next one.
@@ -60,13 +66,16 @@ class ToolNotes {
         Note first, second;
     };
     void attach(int tool, const Note& note);
+    bool keep_names(std::string_view text, const Note& note);
     const Note* find(int tool) const;
 
     // Most different tools of a program (job/program_tools.hpp refuses more), and most conflicts.
     static constexpr std::size_t kMostTools = 1000, kMostConflicts = 100;
 
-    std::vector<std::pair<int, Note>> notes_;  // one for each number
-    std::map<int, std::size_t> index_;         // of a number in notes_
+    std::vector<std::pair<int, Note>> notes_;                    // one for each number
+    std::map<int, std::size_t> index_;                           // of a number in notes_
+    std::map<std::string, Note, std::less<>> named_;             // by the name in quotes, folded
+    std::vector<std::pair<int, std::string>> texts_of_numbers_;  // folded
     std::vector<Conflict> conflicts_;
     std::set<int> lines_;
     std::optional<int> largest_number_;

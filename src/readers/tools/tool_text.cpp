@@ -37,6 +37,10 @@ constexpr std::array kExtents{"DEEP"sv,  "DEPTH"sv, "TIEF"sv, "LONG"sv,  "LANG"s
                               "THICK"sv, "MIN"sv,   "RPM"sv,  "SHANK"sv, "BORE"sv};
 constexpr std::array kAngleWords{"TAPER"sv, "ANGLE"sv, "WINKEL"sv,  "SPITZENWINKEL"sv,
                                  "POINT"sv, "SIG"sv,   "TIPANGLE"sv};
+// What may stand between a size and its noun: 0.500 4FL END MILL.
+constexpr std::array kBeforeNouns{"END"sv,    "FLAT"sv,    "BALL"sv, "BULL"sv, "NOSE"sv,
+                                  "SQUARE"sv, "CARBIDE"sv, "HSS"sv,  "VHM"sv,  "CHAMFER"sv,
+                                  "SPOT"sv,   "ROUGH"sv,   "UNC"sv,  "UNF"sv};
 constexpr std::array kOffsetWords{"COMP"sv, "COMPENSATION"sv, "OFFSET"sv, "REGISTER"sv, "KORREKTUR"sv};
 constexpr int kMostFlutesInText = 24;
 // Whole numbers beside a noun that are sizes: ENDMILL 12, but ENDMILL 2 may be the second one.
@@ -254,9 +258,13 @@ class TextReader {
             set_flutes(t.value);
             return next - i + 1;
         }
-        if (t.is_angle) {
+        // 135 POINT ANGLE, 90ST (Polish)
+        const bool is_point =
+            (token(i + 1).is_word("POINT") || token(i + 1).is_word("TIP")) && token(i + 2).is_word("ANGLE");
+        const bool is_degrees = token(i + 1).is_word("ST") && token(i + 1).is_glued;
+        if (t.is_angle || (t.unit_mm == 0 && (is_point || is_degrees))) {
             set_angle(t.value);
-            return 1;
+            return is_point ? 3 : 1;
         }
         // 1 = End Mill {6 mm}
         if (i == 0 && t.is_count() && token(1).is_sign('=') && tool_.names_tool) {
@@ -290,9 +298,12 @@ class TextReader {
         const TextToken& number = token(i);
         const std::size_t before = i > 1 && is_joint(token(i - 1)) ? i - 2 : i - 1;
         const std::size_t after = is_joint(token(i + 1)) ? i + 2 : i + 1;
-        const bool follows = i > 0 && is_noun(token(before)), leads = is_noun(token(after));
+        const bool follows = i > 0 && is_noun(token(before));
+        const bool leads = is_noun(token(after)) || (!number.is_integer && leads_to_noun(after));
         // HOLE-CENTERS-T3-4 - DRILL is the name of an operation: a tool's text begins with its number.
-        const bool is_about_it = is_name_ || (tool_.number && number_at_ <= 1);
+        // .125 FLAT END MILL begins with its size.
+        const bool is_about_it =
+            is_name_ || (tool_.number && number_at_ <= 1) || (i == 0 && !number.is_integer);
         if (!is_about_it || !(follows || leads)) return;
         if (!number.is_integer) {
             set_diameter(number, Plainness::size);
@@ -306,6 +317,18 @@ class TextReader {
         TextToken size = number;
         size.unit_mm = 1;
         set_diameter(size, Plainness::size);
+    }
+
+    // True if adjectives and a number of flutes stand between token i and a noun.
+    bool leads_to_noun(std::size_t i) const {
+        for (std::size_t k = i; k < i + 6; ++k) {
+            const TextToken& t = token(k);
+            if (t.kind == TextToken::Kind::word && is_noun_of_tool(t.text)) return true;
+            const bool counts = t.is_count() && (is_one_of(kFluteWords, token(k + 1)) || t.value < 100);
+            if (!counts && !t.is_sign('-') && !is_one_of(kFluteWords, t) && !is_one_of(kBeforeNouns, t))
+                return false;
+        }
+        return false;
     }
 
     // True if nothing but signs stands between the tool's number and token i.
@@ -355,6 +378,7 @@ class TextReader {
     }
 
     void finish() {
+        if (text_.find("WEAR COMP") != std::string::npos) tool_.is_for_compensation = false;
         if (!tool_.diameter) tool_.asks_for_size = is_about_tool_ && text_.find("SIZE") != std::string::npos;
         // H1 D1 are the numbers of offsets, and D1 beside words about offsets is.
         if (plainness_ == Plainness::name && glued_d_ > 0 && (glued_d_ == offset_ || is_about_offset_))
@@ -364,6 +388,14 @@ class TextReader {
             plainness_ = Plainness::name;
         } else if (radius_ && !tool_.corner && tool_.diameter) {
             tool_.corner = radius_;
+        }
+        // R118 of a drill, R90 of a chamfer mill: the angle of its point.
+        const bool has_point = tool_.shape == ToolShape::drill || tool_.shape == ToolShape::spot_drill ||
+                               tool_.shape == ToolShape::centre_drill || tool_.shape == ToolShape::chamfer ||
+                               tool_.shape == ToolShape::countersink;
+        if (has_point && tool_.corner && tool_.diameter && tool_.corner->value > tool_.diameter->value / 2) {
+            set_angle(tool_.corner->value);
+            tool_.corner.reset();
         }
         if (tool_.flutes == 0 && (tool_.names_tool || plainness_ == Plainness::name))
             tool_.flutes = lettered_flutes_;

@@ -138,6 +138,41 @@ TEST(GcodeCompensation, TakesTheDiameterFromOptionsTableAndComments) {
     EXPECT_NEAR(aside("G41 D0"), 0, 1e-12);
 }
 
+// T D=16 of Fusion is the whole diameter, or D corrects the wear alone: the contour tells.
+TEST(GcodeCompensation, TakesTheProgrammedPathWhereTheDiameterOfACommentDoesNotFit) {
+    const auto milled = [](const std::string& moves, const std::string& more = "") {
+        return program_of("(T8 D=16. CR=0. - FLAT END MILL" + more +
+                          ")\nG21 G90 M3 F100\nT8 M6\nG0 X0 Y0 Z0\n" + moves);
+    };
+    // A square of 60 mm from outside, with an entry of 30 mm: 8 mm aside.
+    const std::string square = "G41 D8\nG1 X30 Y0\nY60\nX90\nY0\nX30\nG40 X0\n";
+    const motion::Program whole = milled(square);
+    EXPECT_NEAR(whole.moves[1].start.tip_mm.x, 22, 1e-12);
+    EXPECT_TRUE(warns_of(whole, 5, "moved aside by 8 mm, the radius that line 1 gives tool 8"));
+    // An entry that is shorter than the radius, an arc and a corner that leave no room for it, also late.
+    const struct {
+        const char* moves;
+        double feed_mm;
+    } wear[] = {
+        {"G41 D8\nG1 X5 Y0\nY60\nG40 X0\n", 70},
+        {"G41 D8\nG1 X30\nG3 X32 Y2 I0 J2\nG1 Y60\nG40 X0\n", 30 + kPi + 58 + 32},
+        {"G41 D8\nG1 X30\nY60\nX31\nY100\nX26\nY110\nX100\nG40 Y0\n", 30 + 60 + 1 + 40 + 5 + 10 + 74 + 110}};
+    for (const auto& c : wear) {
+        const motion::Program program = milled(c.moves);
+        EXPECT_NEAR(feed_mm(program), c.feed_mm, 1e-9) << c.moves;
+        EXPECT_TRUE(warns_of(program, 5, "D is taken to correct the wear of tool 8 alone")) << c.moves;
+        // The next contour of that tool, which would fit, is the centre's too.
+        EXPECT_NEAR(feed_mm(milled(std::string(c.moves) + "G0 X0 Y0\n" + square)), c.feed_mm + 30 + 240 + 30,
+                    1e-9);
+    }
+    EXPECT_NEAR(feed_mm(milled(square, " WEAR COMP")), 30 + 240 + 30, 1e-9);
+    // A tool of the job is the whole radius: it is refused where it does not fit.
+    GcodeOptions job;
+    job.tools = {{8, 16}};
+    const auto refused = read_gcode("(T8 D=16.)\nG21 M3 F100\nG0 X0 Y0 Z0\nG41 D8\nG1 X5\nY60\n", job);
+    EXPECT_FALSE(refused.has_value());
+}
+
 // Round a regular polygon: each side keeps its length and each corner adds its part of a full circle; inside,
 // each side loses twice r tan of half the corner.
 RC_GTEST_PROP(GcodeCompensation, RoundsAPolygonByTheClosedForm, ()) {

@@ -116,6 +116,9 @@ TEST(GcodeRoundPocket, goes_out_by_half_circles_and_back_to_the_middle) {
     EXPECT_NEAR(feed_mm(deep), 3 * (2 + kPi * 5 + 2 * kPi * 5), 1e-9);
     EXPECT_LT(distance(deep.moves.back().end.tip_mm, {0, 0, -6}), 1e-9);
     EXPECT_NEAR(deep.moves[1].arc->normal.z, -1, 1e-12);
+    // By any text about the tool; the first circle is the tool's own: one circle of radius 1 of its centre.
+    const motion::Program own = fanuc("(T2 = 4 MM END MILL)\nT2 M6\nG13 D2 I2 K3 Q2 Z-2\n");
+    EXPECT_NEAR(feed_mm(own), 2 + kPi + 2 * kPi, 1e-9);
 }
 
 TEST(GcodeCylinder, rolls_lines_and_arcs_about_its_axis) {

@@ -42,7 +42,7 @@ TEST(GcodeReader, TakesTheWordsOfOneControlAsTheyAreMeantThere) {
         // two modes in a block: the last one holds
         {ready + "G90 G91 G1 X10\nX10\n", 3, "G90 and G91 stand in one block: the last one holds", 20},
         {ready + "G0 G1 X10\nG17 G41 G40 X20\n", 4, "G41 and G40", 20},
-        {ready + "IF [#5405 GE 6000] THEN #3000=1\nG1 X10\n", 3, "as of a new tool", 10},
+        {ready + "IF [#5405 GE 6000] THEN #3000=1\nG1 X10\n", 3, "#5405 is a timer", 10},
     };
     expect_passed(fanuc, GcodeDialect::fanuc);
     const Passed linuxcnc[] = {
@@ -63,7 +63,7 @@ TEST(GcodeReader, PassesOverWhatLeavesThePathAsItIs) {
         {ready + "M3 P100\nG1 X10\n", 3, "a share of the full speed", 10},
         {ready + "G1 X10 P2\n", 3, "P is used by no code", 10},
         {ready + "G1 X10 H2\n", 3, "H is used by no code", 10},
-        {ready + "G1 X10 D2\n", 3, "D is used by no code", 10},
+        {ready + "G1 X10 E2\n", 3, "E is used by no code", 10},
         {ready + "G1 X10 Q2\n", 3, "Q is used by no code", 10},
         {ready + "G1 X10 L2\n", 3, "L is used by no code", 10},
         {ready + "G1 X10 E2\n", 3, "a printer", 10},

@@ -39,6 +39,16 @@ TEST(GcodeMacro, RunsBranchesLoopsAndJumps) {
     EXPECT_DOUBLE_EQ(feed_of("G91\n#3=0\nN5 #1=0\nWHILE[#1LT10]DO1\nX1\n#1=#1+1\nIF[#1EQ2]GOTO8\nEND1\n"
                              "N8 #3=#3+1\nIF[#3LT3]GOTO5\n"),
                      6);
+    // Statements behind DO on its line, and one behind another: 3 steps, the last of half a mm.
+    EXPECT_DOUBLE_EQ(feed_of("G91\n#1=2.5\nWHILE[#1GT0]DO1 #2=1 IF[#1LT1] THEN #2=#1\nX#2\n#1=#1-1\nEND1\n"),
+                     2.5);
+    EXPECT_DOUBLE_EQ(feed_of("#1=1 IF[#1EQ1]GOTO20\nX50\nN20 X5\n"), 5);
+    EXPECT_DOUBLE_EQ(feed_of("WHILE[1EQ2]DO1 X9\nX8\nEND1\nX5\n"), 5);
+    // Comments within brackets, a bare point, the common variables of Haas, the tool in the spindle.
+    EXPECT_DOUBLE_EQ(feed_of("#6=2\nX[#6 (step) + 3 (more)]\n"), 5);
+    EXPECT_DOUBLE_EQ(feed_of("X5 Y.\n"), 5);
+    EXPECT_DOUBLE_EQ(feed_of("#10002=#3020-#10000\nX[5+#10002]\n"), 5);
+    EXPECT_DOUBLE_EQ(feed_of("T5 M6\nX#3026\n"), 5);
     // A line of the same number in another program is another line.
     EXPECT_DOUBLE_EQ(feed_of("GOTO10\nX50\nN10 M98 P2\nM30\nO2\nGOTO10\nX60\nN10 X3\nM99\n"), 3);
 }

@@ -98,7 +98,13 @@ const Form kForms[] = {
     {"T8 FORET A CENTRER D3.15", 8, centre_drill, 3.15, 0, 0, 0, 0},
     {"T3 D=3 CR=0. - ZMIN=-1. - FRESA CON PUNTA PLANA", 3, flat, 3, 0, 0, 0, 0},
     {"T11 GEWINDEBOHRER M6 D6", 11, tap, 6, 0, 0, 0, 0},
+    {"T8 DRILL D6.8 R118 ID:FURO_6.8", 8, drill, 6.8, 0, 0, 118, 0},
+    {"T1 FACE MILL D63 R0.8 \"PLANFR63\"", 1, face, 63, 0, 0.8, 0, 0},
     // A bare number beside the noun, behind the tool's number
+    {"T1  0.25 END MILL", 1, flat, 0.25, 0, 0, 0, 0},
+    {"T5 0.500 4FL END MILL", 5, flat, 0.5, 0, 0, 0, 4},
+    {"T3 0.250-20 UNC TAP", 3, tap, 0.25, 0, 0, 0, 0},
+    {"T4 D5 DRILL 135 Point Angle", 4, drill, 5, 0, 0, 135, 0},
     {"T5 DRILL 6.8", 5, drill, 6.8, 0, 0, 0, 0},
     {"T7 - 8.5 DRILL", 7, drill, 8.5, 0, 0, 0, 0},
     {"T3 .5 ENDMILL 4 FLUTE", 3, flat, 0.5, 0, 0, 0, 4},
@@ -220,6 +226,26 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     probed.change(1);
     probed.read("Change Tool: Diameter: 6 mm", 3);
     EXPECT_EQ(only_tool(probed).diameter_mm, 6);
+}
+
+TEST(ToolNotes, give_a_text_with_a_name_to_the_tool_of_that_name) {
+    ToolNotes notes;
+    notes.read("\"FACE50\" D=50 - ZMIN=0 - face mill", 1);
+    notes.read("\"EM10\" D=10 - ZMIN=-5 - flat end mill", 2);
+    notes.read("T7 = KUGEL_D8", 3);
+    EXPECT_EQ(notes.number_of("KUGEL_D8"), 7);
+    EXPECT_FALSE(notes.number_of("KUGEL"));
+    notes.name(1, "EM10", 5);
+    notes.change(1);
+    notes.name(2, "FACE50", 9);
+    notes.change(2);
+    Warnings warnings;
+    const auto tools = notes.tools(1, "p.nc", warnings);
+    ASSERT_EQ(tools.size(), 3u);
+    for (const auto& [number, diameter] : {std::pair{1, 10.0}, {2, 50.0}, {7, 8.0}}) {
+        const auto is_it = [&](const motion::DeclaredTool& tool) { return tool.number == number; };
+        EXPECT_EQ(std::ranges::find_if(tools, is_it)->diameter_mm, diameter);
+    }
 }
 
 TEST(ToolNotes, join_a_header_of_several_lines) {

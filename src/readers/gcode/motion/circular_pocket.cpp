@@ -74,9 +74,11 @@ class Pocket {
         const Word* number = command_.use('D');
         const double offset =
             number == nullptr ? state_.offset_number.value_or(state_.tool()) : number->value;
-        const auto diameter = offset == 0
-                                  ? std::optional<double>(0)
-                                  : output_.tool_diameter_mm(static_cast<int>(offset), state_.unit_mm);
+        // I, K and Q are sizes of the pocket, so that any text about the tool counts.
+        const int tool = static_cast<int>(offset);
+        auto diameter =
+            offset == 0 ? std::optional<double>(0) : output_.tool_diameter_mm(tool, state_.unit_mm);
+        if (!diameter) diameter = output_.notes.stated_diameter_mm(tool, state_.unit_mm);
         if (!diameter && output_.first(Note::compensation_unknown)) {
             output_.warn(command_.line(), name() +
                                               ": nothing states the diameter of the tool: its circles are "
@@ -87,6 +89,8 @@ class Pocket {
         if (step_ == 0) step_ = std::max(last_ - first_, 0.0);
         first_ -= radius;
         last_ -= radius;
+        // The first circle is the tool's own.
+        if (radius > 0 && std::abs(first_) <= kSameMm && last_ > kSameMm) first_ = std::min(first_ + step_, last_);
         const double rings = step_ > 0 ? (last_ - first_) / step_ : 0;
         if (!(first_ > kSameMm) || !(last_ >= first_) || !(rings + 1 <= kMostRings) ||
             !(passes_ >= 1 && passes_ * (rings + 1) <= kMostRings)) {

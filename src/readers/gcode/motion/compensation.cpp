@@ -31,6 +31,66 @@ class Corner {
     }
 
     Result<void> take(const motion::Move& programmed) {
+        if (!comp_.is_of_text) return follow(programmed);
+        comp_.programmed.push_back(programmed);
+        const auto done = follow(programmed);
+        if (!done) return mill_as_programmed(done.error());
+        return comp_.programmed.size() < kMostKept ? done : decide();
+    }
+
+    Result<void> hand_out_all() {
+        for (const motion::Move& move : comp_.waiting) {
+            if (auto done = give(move); !done) return done;
+        }
+        comp_.waiting.clear();
+        return {};
+    }
+
+    // The radius of the comment fits so far: it is the one that is meant.
+    Result<void> decide() {
+        if (!comp_.is_of_text) return {};
+        const int tool = static_cast<int>(comp_.number);
+        if (comp_.has_begun && output_.first(Note::compensation_of_text, tool)) {
+            output_.warn(comp_.line, code_text('G', comp_.code) + ": the path is moved aside by " +
+                                         mm_text(std::abs(comp_.left_mm)) + ", the radius that line " +
+                                         std::to_string(output_.notes.line_of(tool)) + " gives tool " +
+                                         std::to_string(tool) +
+                                         "; if the control corrects the wear alone, give that comment the "
+                                         "words WEAR COMP");
+        }
+        comp_.is_of_text = false;
+        comp_.programmed.clear();
+        for (const motion::Move& move : std::exchange(comp_.compensated, {})) {
+            if (auto done = hand_out(move, state_, output_); !done) return done;
+        }
+        return {};
+    }
+
+  private:
+    // The radius of the comment does not fit: the program holds the path of the tool's centre, and D the
+    // wear.
+    Result<void> mill_as_programmed(const Error& why) {
+        const int tool = static_cast<int>(comp_.number);
+        output_.wear_tools.insert(tool);
+        if (output_.first(Note::compensation_of_wear, tool)) {
+            output_.warn(comp_.line, code_text('G', comp_.code) + ": " + why.cause + " (line " +
+                                         std::to_string(why.line) +
+                                         "), so D is taken to correct the wear of tool " +
+                                         std::to_string(tool) + " alone, and the programmed path is milled");
+        }
+        std::vector<motion::Move> moves = std::exchange(comp_.programmed, {});
+        moves.front().start.tip_mm = in_space(comp_.at, moves.front().start.tip_mm[w_]);
+        comp_.is_of_text = comp_.has_begun = false;
+        comp_.left_mm = 0;
+        comp_.compensated.clear();
+        comp_.waiting.clear();
+        for (const motion::Move& move : moves) {
+            if (auto done = hand_out(move, state_, output_); !done) return done;
+        }
+        return {};
+    }
+
+    Result<void> follow(const motion::Move& programmed) {
         const Point from = in_plane(programmed.start.tip_mm), to = in_plane(programmed.end.tip_mm);
         if (programmed.kind == motion::MoveKind::dwell || (!programmed.arc && from == to)) {
             return stay(programmed);
@@ -55,15 +115,13 @@ class Corner {
         return join(programmed, contour, *moved);
     }
 
-    Result<void> hand_out_all() {
-        for (const motion::Move& move : comp_.waiting) {
-            if (auto done = hand_out(move, state_, output_); !done) return done;
-        }
-        comp_.waiting.clear();
+    // Hands out the move, or keeps it until the radius is certain.
+    Result<void> give(const motion::Move& move) {
+        if (!comp_.is_of_text) return hand_out(move, state_, output_);
+        if (move.kind == motion::MoveKind::feed) output_.notes.cut();
+        comp_.compensated.push_back(move);
         return {};
     }
-
-  private:
     Point in_plane(Vec3 p) const { return {p[u_], p[v_]}; }
     Vec3 in_space(Point p, double w) const {
         Vec3 q;
@@ -82,7 +140,7 @@ class Corner {
         const Point here = comp_.has_begun ? comp_.last.end : comp_.at;
         move.start.tip_mm = in_space(here, programmed.start.tip_mm[w_]);
         move.end.tip_mm = in_space(here, programmed.end.tip_mm[w_]);
-        if (comp_.waiting.empty()) return hand_out(move, state_, output_);
+        if (comp_.waiting.empty()) return give(move);
         if (comp_.waiting.size() > kMostWaiting) {
             return refuse(programmed, "more than 1000 blocks without motion in the plane of compensation",
                           "write G40 before them");
@@ -173,7 +231,7 @@ class Corner {
         motion::Move move = programmed;
         move.end.tip_mm[w_] = move.start.tip_mm[w_];
         if (distance(arc.start, arc.end) <= kSamePointMm && std::abs(turn) < 1) return {};
-        return hand_out(along(arc, move), state_, output_);
+        return give(along(arc, move));
     }
 
     // At an inside corner.
@@ -200,7 +258,7 @@ class Corner {
         return {};
     }
 
-    static constexpr std::size_t kMostWaiting = 1000;
+    static constexpr std::size_t kMostWaiting = 1000, kMostKept = 10'000;
 
     State& state_;
     Compensation& comp_;
@@ -283,6 +341,7 @@ Result<void> end_compensation(State& state, Output& output) {
     Compensation& comp = state.compensation;
     if (!comp.is_on) return {};
     if (auto done = Corner(state, output).hand_out_all(); !done) return done;
+    if (auto done = Corner(state, output).decide(); !done) return done;
     if (comp.has_begun) {
         const auto axes = axes_of(comp.plane);
         Vec3 at = state.tip_mm;
@@ -357,6 +416,13 @@ Result<void> begin_compensation(Command& command, State& state, Output& output) 
     const Vec3 at = state.left_at_mm.value_or(state.tip_mm);
     comp.at = {at[axes[0]], at[axes[1]]};
     comp.number = offset_number(command, state, output);
+    const bool is_stated = code->tenths % 10 == 1;
+    comp.is_of_text = diameter_mm != 0 && !is_stated &&
+                      output.is_diameter_of_text(static_cast<int>(comp.number), state.unit_mm);
+    if (comp.is_of_text && output.wear_tools.contains(static_cast<int>(comp.number))) {
+        comp.is_of_text = false;
+        comp.left_mm = 0;
+    }
     state.left_at_mm.reset();
     return {};
 }

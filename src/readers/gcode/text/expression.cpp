@@ -147,6 +147,7 @@ class ExpressionReader {
 
     Result<double> bracket() {
         const std::size_t open = cursor_.at++;
+        pass_comments();
         auto read = operation(1);
         if (!read) return read;
         if (cursor_.peek_after_blanks() != ']') {
@@ -162,11 +163,21 @@ class ExpressionReader {
         return read;
     }
 
+    // A Fanuc control skips what stands between ( and ) anywhere, also within brackets.
+    void pass_comments() {
+        while (depth_ > 0 && parameters_.is_fanuc() && cursor_.peek_after_blanks() == '(') {
+            const std::size_t close = cursor_.line.find(')', cursor_.at);
+            if (close == std::string_view::npos) return;
+            cursor_.at = close + 1;
+        }
+    }
+
     // Evaluates operators of at least this precedence.
     Result<double> operation(int least) {
         auto left = value();
         if (!left) return left;
         for (;;) {
+            pass_comments();
             cursor_.skip_blanks();
             const std::size_t start = cursor_.at;
             const Operator op = peek_operator();

@@ -77,8 +77,10 @@ std::optional<double> fanuc_system_variable(int number, const State& state) {
             return state.active_work < 6 ? 54 + state.active_work : 54.1;
         case 4109:
             return state.feed.value_or(0) / (state.feed_mode == FeedMode::inverse_time ? 1 : state.unit_mm);
+        case 3027:  // Haas
         case 4119:
             return state.spindle_rpm;
+        case 3026:  // Haas
         case 4120:
             return state.tool();
         default:

@@ -11,7 +11,10 @@ namespace tribo::readers::gcode {
 
 struct State;
 
-inline constexpr int kLastCommon = 999;  // #100 to #199 and #500 to #999; system variables follow
+// #100 to #199 and #500 to #999, and on Haas #10000 to #10999; between them the system variables.
+constexpr bool is_common(int number) {
+    return number <= 999 || (number >= 10'000 && number < 11'000);
+}
 // X, Y and Z where the last block ended (#5001), and where the tool is (#5041), in the coordinates of the
 // program.
 inline constexpr int kFirstBlockEnd = 5001, kFirstPlace = 5041;
@@ -22,11 +25,14 @@ inline constexpr int kFirstHeading = 99'901;
 inline constexpr int kClearingDepth = 99'904;
 inline constexpr int kAlarm = 3000, kStopWithMessage = 3006;
 
-// How long a tool has cut and turned (Haas: #5401 to #5600), but for the numbers in which a Fanuc control has
-// the place of a skip.
-constexpr bool is_tool_timer(int number) {
+// Timers and clocks: #3001, #3002, date and time (#3011, #3012), and of Haas #3020 to #3025 (power on, cycle,
+// feed, parts) and #5401 to #5600, how long a tool has cut and turned, but for the numbers in which a Fanuc
+// control has the place of a skip.
+constexpr bool is_timer(int number) {
     const bool is_skip = number > 5420 && number <= 5440;
-    return number > 5400 && number <= 5600 && !is_skip;
+    const bool is_of_tool = number > 5400 && number <= 5600 && !is_skip;
+    const bool is_clock = number == 3001 || number == 3002 || number == 3011 || number == 3012;
+    return is_of_tool || is_clock || (number >= 3020 && number <= 3025);
 }
 
 // Returns the value; none where only the control knows it. Lengths are in the unit in force.

@@ -88,12 +88,15 @@ bool skip_block_head(Cursor& cursor) {
 }
 
 Result<bool> Lexer::next(Block& block) {
-    block_place_ = lines_;
-    const auto line = lines_.next();
-    if (!line) return false;
-    cursor_.line = *line;
-    cursor_.at = 0;
-    cursor_.number = lines_.number();
+    const std::optional<std::size_t> rest = std::exchange(rest_at_, std::nullopt);
+    if (!rest) {
+        block_place_ = lines_;
+        const auto line = lines_.next();
+        if (!line) return false;
+        cursor_.line = *line;
+        cursor_.number = lines_.number();
+    }
+    cursor_.at = rest.value_or(0);
     block.kind = BlockKind::words;
     block.line = lines_.number();
     block.column = 1;
@@ -104,21 +107,12 @@ Result<bool> Lexer::next(Block& block) {
     block.words.clear();
     block.assignments.clear();
     block.comments.clear();
-    if (line->size() > kLongestBlock)
-        return cursor_.refuse(kLongestBlock, too_long_block(line->size()), "write it on several lines");
-
-    if (cursor_.peek() == '$') return read_setting(block);
-    if (cursor_.peek_after_blanks() == '%') {
-        block.kind = BlockKind::percent;
-        block.column = static_cast<int>(cursor_.at) + 1;
-        block.label = trimmed(cursor_.line.substr(cursor_.at + 1));
-        return true;
-    }
-    if (cursor_.peek() == '/') {
-        block.deletable = true;
-        if (skip_deletable_) return true;
-        ++cursor_.at;
-        if (is_digit(cursor_.peek())) ++cursor_.at;  // number of the delete switch
+    if (cursor_.line.size() > kLongestBlock)
+        return cursor_.refuse(kLongestBlock, too_long_block(cursor_.line.size()),
+                              "write it on several lines");
+    if (!rest) {
+        const auto is_whole = read_head(block);
+        if (!is_whole || *is_whole) return is_whole;
     }
     for (;;) {
         const char c = cursor_.peek_after_blanks();
@@ -152,6 +146,11 @@ Result<bool> Lexer::next(Block& block) {
             while (is_digit(cursor_.peek_after_blanks())) ++cursor_.at;
             continue;
         }
+        if (!block.assignments.empty() && block.words.empty() && parameters_.is_fanuc() &&
+            begins_macro_statement(cursor_)) {  // #1=#1+1 IF [#1 GT 5] GOTO 9: one statement after the other
+            rest_at_ = cursor_.at;
+            return true;
+        }
         if (is_first && is_letter(c) && parameters_.is_fanuc()) {
             const std::size_t start = cursor_.at;
             const auto ends = read_macro(block);
@@ -180,6 +179,24 @@ Result<bool> Lexer::next(Block& block) {
     return true;
 }
 
+// Returns true if the line is a setting, a '%' or skipped.
+Result<bool> Lexer::read_head(Block& block) {
+    if (cursor_.peek() == '$') return read_setting(block);
+    if (cursor_.peek_after_blanks() == '%') {
+        block.kind = BlockKind::percent;
+        block.column = static_cast<int>(cursor_.at) + 1;
+        block.label = trimmed(cursor_.line.substr(cursor_.at + 1));
+        return true;
+    }
+    if (cursor_.peek() == '/') {
+        block.deletable = true;
+        if (skip_deletable_) return true;
+        ++cursor_.at;
+        if (is_digit(cursor_.peek())) ++cursor_.at;  // number of the delete switch
+    }
+    return false;
+}
+
 // $H, $X, $100=80: commands and settings of Grbl; the name of the file on other controls.
 Result<bool> Lexer::read_setting(Block& block) {
     block.setting = trimmed(cursor_.line);
@@ -202,6 +219,11 @@ Result<bool> Lexer::read_macro(Block& block) {
         default:
             block.kind = BlockKind::macro;
             block.macro = *statement;
+            // WHILE [] DO1 #1=#1+1: the first statement of the loop stands in its line (Haas).
+            if (statement->kind == MacroKind::loop && !cursor_.at_end() && cursor_.peek() != '(') {
+                if (statement->holds) rest_at_ = cursor_.at;
+                return true;
+            }
             if (auto end = read_end(block); !end) return std::unexpected(end.error());
             return true;
     }
@@ -322,6 +344,13 @@ Result<std::optional<double>> Lexer::read_number(char letter, std::size_t word) 
     if (has_sign) {
         ++cursor_.at;
         c = cursor_.peek_after_blanks();
+    }
+    // Z. is zero on Fanuc controls.
+    const bool is_point = c == '.' && parameters_.is_fanuc() &&
+                          (cursor_.at + 1 == cursor_.line.size() || !is_digit(cursor_.line[cursor_.at + 1]));
+    if (is_point) {
+        ++cursor_.at;
+        return 0.0;
     }
     if (is_digit(c) || c == '.') {
         const auto digits = read_digits(cursor_, word);

@@ -72,7 +72,10 @@ class Lexer {
 
     // The position of the next block, for go_to().
     const TextLines& place() const { return lines_; }
-    void go_to(const TextLines& place) { lines_ = place; }
+    void go_to(const TextLines& place) {
+        lines_ = place;
+        rest_at_.reset();
+    }
     // The position of the block that next() has read.
     const TextLines& block_place() const { return block_place_; }
 
@@ -83,6 +86,7 @@ class Lexer {
 
   private:
     Result<bool> read_macro(Block& block);
+    Result<bool> read_head(Block& block);
     Result<bool> read_setting(Block& block);
     Result<void> read_word(Block& block);
     Result<void> read_corner(Block& block);
@@ -97,6 +101,7 @@ class Lexer {
     bool skip_deletable_;
     const Parameters& parameters_;
     Cursor cursor_;
+    std::optional<std::size_t> rest_at_;  // column of a further statement in the line of the block
 };
 
 // True for O, and for ':' with a number alone, the program number of ISO tapes.

@@ -80,6 +80,10 @@ std::optional<int> take_digits(Cursor& cursor) {
 
 }  // namespace
 
+bool begins_macro_statement(Cursor cursor) {
+    return take(cursor, "IF") || take(cursor, "WHILE", "WH") || take(cursor, "GOTO", "GO");
+}
+
 Result<MacroStatement> read_macro_statement(Cursor& cursor, const Parameters& parameters) {
     cursor.skip_blanks();
     const std::size_t start = cursor.at;

@@ -30,6 +30,9 @@ struct MacroStatement {
     int number = 0;     // of the line, or of DO and END
 };
 
+// True if IF, WHILE or GOTO stands here.
+bool begins_macro_statement(Cursor cursor);
+
 // Reads the statement at the cursor; MacroKind::none if none begins here. The cursor ends behind it.
 Result<MacroStatement> read_macro_statement(Cursor& cursor, const Parameters& parameters);
 

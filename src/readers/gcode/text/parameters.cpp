@@ -162,17 +162,15 @@ Result<double> Parameters::get(int number) const {
 
 // An unassigned variable of a Fanuc control.
 Result<double> Parameters::get_fanuc(int number) const {
-    if (number > kLastCommon) {
+    if (!is_common(number)) {
         for (const int first : {kFirstBlockEnd, kFirstPlace}) {
             if (number >= first && number < first + 3) return position(number - first);
         }
         if (const auto value = fanuc_system_variable(number, state_)) return *value;
-        if (is_tool_timer(number)) {
+        if (is_timer(number)) {
             if (output_.first(Note::tool_timer)) {
                 output_.warn(state_.line,
-                             shown(number) +
-                                 " is the time that a tool has worked (Haas): 0 is taken, as of a "
-                                 "new tool");
+                             shown(number) + " is a timer or a clock of the control: 0 is taken");
             }
             return 0.0;
         }
@@ -235,7 +233,7 @@ Result<void> Parameters::set(int number, double value) {
         *place = value;
         return {};
     }
-    if (is_fanuc() && number > kLastCommon) {
+    if (is_fanuc() && !is_common(number)) {
         const auto is_set = set_fanuc_system_variable(number, std::isnan(value) ? 0 : value, state_);
         if (!is_set) return std::unexpected(is_set.error());
         if (*is_set) return {};
