@@ -294,6 +294,7 @@ enum class Note {
     wrong_spindle,
     compensation_unknown,
     compensation_of_text,
+    no_depth,
     compensation_of_wear,
     compensation_in_space,
     centres,

@@ -98,7 +98,7 @@ Result<void> Interpreter::drill(const Call& call) {
             if (auto done = between(reached, reached >= depth); !done) return done;
             const double left = depth - reached;
             if (less < 0) stroke *= -less;
-            if (less > 0 && stroke > less) stroke = std::max(stroke - less, less);
+            if (less > 0) stroke = std::max(stroke - less, less);
             stroke = std::max({stroke, least, kLeastStrokeMm});
             // The last two strokes are alike.
             if (less > 0 && stroke == less && left > less && left < 2 * less) stroke = left / 2;

@@ -124,6 +124,7 @@ TEST(GcodeReader, SaysWhatItTakesWhereControlsDiffer) {
         {ready + "G28 A0\nG1 X20\n", 0, "", 10},
         {"G21 M3 F100 (no depth: Z)\nG28\nG1 X10 Y0\nX20\n", 4, "it is taken to start at Z0", 10},
         {ready + "$H\nG1 X20\n", 4, "it is left out", 0},
+        {ready + "G81 X20 Z1 R1\nX30\n", 3, "its holes have no depth", 0},
         {ready + "G28 Z20\nG81 X20 Z-3 R2\nX30\n", 4, "it is left out", 5 + 5},
         {ready + "G38.2 Z-5\nG92 Z0\nG1 X20\n", 3, "(probing) ends where only the machine knows", 10},
         {ready + "G31 Z-5\nG0 Z1\nG1 X20\n", 3, "(probing)", 10},

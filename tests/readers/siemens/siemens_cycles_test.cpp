@@ -24,6 +24,9 @@ TEST(SiemensCycles, DrillingPathsHaveTheirLengths) {
         // strokes to 8, 14, 18 and 20, each 2 mm less; 1 mm back at the feed between them
         {"CYCLE83(5,0,1,-20,,,8,2,0,0,1,0)", 1 + 20 + 3 * 2, 9 + 25, 0},
         {"CYCLE83(5,0,1,-20,,-5,,0,0,0,1,0)", 1 + 20 + 3 * 2, 9 + 25, 0},
+        // a first stroke that is shorter than what the others lose: they are as long as that, to 1, 5, 9, 13;
+        // the last two are alike
+        {"CYCLE83(5,0,1,-20,,,1,4,0,0,1,0)", 1 + 20 + 5 * 2, 9 + 25, 0},
         // the same with returns to 1 mm above, down again to 0.6 mm above the last depth
         {"CYCLE83(5,0,1,-20,,-10,,0,0,3,1,1)", 1 + 20 + 0.6, 9 + 25 + 11 + 10.4, 3},
         {"CYCLE84(5,0,1,-20,,,3,,1.5,0,500,1000)", 42, 9 + 4, 0},

@@ -90,7 +90,8 @@ class Pocket {
         first_ -= radius;
         last_ -= radius;
         // The first circle is the tool's own.
-        if (radius > 0 && std::abs(first_) <= kSameMm && last_ > kSameMm) first_ = std::min(first_ + step_, last_);
+        if (radius > 0 && std::abs(first_) <= kSameMm && last_ > kSameMm)
+            first_ = std::min(first_ + step_, last_);
         const double rings = step_ > 0 ? (last_ - first_) / step_ : 0;
         if (!(first_ > kSameMm) || !(last_ >= first_) || !(rings + 1 <= kMostRings) ||
             !(passes_ >= 1 && passes_ * (rings + 1) <= kMostRings)) {

@@ -124,6 +124,10 @@ class Run {
                                   std::string("the cycle's bottom lies above its retract level R"),
                                   "correct R or the depth; in G91 the depth counts from R downwards");
         }
+        if (depth == retract && output_.first(Note::no_depth)) {
+            output_.warn(command_.line(),
+                         "the bottom of the cycle is its retract level R: its holes have no depth");
+        }
         retract_ = retract;
         depth_ = depth;
         clear_ = state_.retract_to_r ? retract : std::max(retract, *cycle.initial_mm);
