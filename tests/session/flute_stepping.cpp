@@ -74,7 +74,7 @@ FluteStepping::Place FluteStepping::place_at(double time_s, Vec3 q) const {
     if (cutter_.runout_mm > 0)
         d = d - cutter_.runout_mm * pose.across(spin_ * time_s + cutter_.runout_deg * pi / 180);
     const double u = dot(d, pose.e1), v = -dot(d, pose.e2);
-    return {std::hypot(u, v), dot(d, pose.axis), std::atan2(v, u) - spin_ * time_s};
+    return {std::sqrt(u * u + v * v), dot(d, pose.axis), std::atan2(v, u) - spin_ * time_s};
 }
 
 // Signed distance to the envelope across its profile; what stands over the tip within the cutting length is
@@ -82,7 +82,8 @@ FluteStepping::Place FluteStepping::place_at(double time_s, Vec3 q) const {
 double FluteStepping::outside(double radius, double height) const {
     const double corner = cutter_.corner_radius_mm(), middle = cutter_.radius_mm() - corner;
     const double out = radius - middle, down = corner - height;
-    const double skin = out > 0 && down > 0 ? std::hypot(out, down) - corner : std::max(out, down) - corner;
+    const double skin =
+        out > 0 && down > 0 ? std::sqrt(out * out + down * down) - corner : std::max(out, down) - corner;
     return std::max(skin, height - cutter_.length_mm);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "base/limits.hpp"
@@ -63,7 +64,10 @@ ToolSizes sizes_of(const ToolText& text, double unit_mm) {
 }
 
 void ToolNotes::read(std::string_view text, int line) {
-    if (lines_.contains(line)) return;
+    const auto at = static_cast<std::size_t>(std::max(line, 0));
+    if (at >= lines_.size()) lines_.resize(at + 1);
+    if (lines_[at]) return;
+    lines_[at] = true;
     Note note{read_tool_text(text), line};
     ToolText& tool = note.text;
     if (largest_number_ && tool.number > largest_number_) tool.number.reset();
@@ -72,12 +76,8 @@ void ToolNotes::read(std::string_view text, int line) {
         tool.names_tool = true;
     }
     expects_size_ = tool.asks_for_size;
-    if (keep_names(text, note)) {
-        lines_.insert(line);
-        return;
-    }
+    if (keep_names(text, note)) return;
     if (tool.number && tool.diameter) {
-        lines_.insert(line);
         attach(*tool.number, note);
         if (window_tool_ == *tool.number) window_has_note_ = true;
         return;
@@ -85,7 +85,6 @@ void ToolNotes::read(std::string_view text, int line) {
     // A shape or a diameter alone is part of a header of several lines: TOOL TYPE : .., TOOL DIA. : ..
     if (tool.number || (!tool.diameter && !tool.names_tool)) return;
     if (tool.diameter && !tool.names_tool) return;
-    lines_.insert(line);
     if (window_tool_ && !window_has_note_) {
         if (pending_) add(tool, pending_->text);
         pending_.reset();

@@ -6,7 +6,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,7 +76,7 @@ class ToolNotes {
     std::map<std::string, Note, std::less<>> named_;             // by the name in quotes, folded
     std::vector<std::pair<int, std::string>> texts_of_numbers_;  // folded
     std::vector<Conflict> conflicts_;
-    std::set<int> lines_;
+    std::vector<bool> lines_;  // that were read
     std::optional<int> largest_number_;
     std::optional<Note> pending_;     // about the next tool
     std::optional<int> window_tool_;  // changed and has not cut yet
