@@ -66,25 +66,32 @@ ToolSizes sizes_of(const ToolText& text, double unit_mm) {
 void ToolNotes::read(std::string_view text, int line) {
     const auto at = static_cast<std::size_t>(std::max(line, 0));
     if (at >= lines_.size()) lines_.resize(at + 1);
-    if (lines_[at]) return;
+    // A line may hold several comments: the first one about a tool counts.
+    const bool goes_on = std::exchange(line_, line) == line && !is_taken_;
+    if (lines_[at] && !goes_on) return;
     lines_[at] = true;
+    is_taken_ = take(text, line);
+}
+
+// Returns true if the text is about a tool.
+bool ToolNotes::take(std::string_view text, int line) {
     Note note{read_tool_text(text), line};
     ToolText& tool = note.text;
     if (largest_number_ && tool.number > largest_number_) tool.number.reset();
     if (tool.is_bare_size) {
-        if (!std::exchange(expects_size_, false)) return;
+        if (!std::exchange(expects_size_, false)) return false;
         tool.names_tool = true;
     }
     expects_size_ = tool.asks_for_size;
-    if (keep_names(text, note)) return;
+    if (keep_names(text, note)) return true;
     if (tool.number && tool.diameter) {
         attach(*tool.number, note);
         if (window_tool_ == *tool.number) window_has_note_ = true;
-        return;
+        return true;
     }
     // A shape or a diameter alone is part of a header of several lines: TOOL TYPE : .., TOOL DIA. : ..
-    if (tool.number || (!tool.diameter && !tool.names_tool)) return;
-    if (tool.diameter && !tool.names_tool) return;
+    if (tool.number || (!tool.diameter && !tool.names_tool)) return false;
+    if (tool.diameter && !tool.names_tool) return false;
     if (window_tool_ && !window_has_note_) {
         if (pending_) add(tool, pending_->text);
         pending_.reset();
@@ -94,10 +101,11 @@ void ToolNotes::read(std::string_view text, int line) {
         } else {
             pending_ = note;
         }
-        return;
+        return true;
     }
     if (pending_ && !(tool.diameter && pending_->text.diameter)) add(tool, pending_->text);
     pending_ = note;
+    return true;
 }
 
 // Keeps what the text says for the names in it. True if it is about a name in quotes and no number: no other

@@ -64,6 +64,7 @@ class ToolNotes {
         int tool = 0;
         Note first, second;
     };
+    bool take(std::string_view text, int line);
     void attach(int tool, const Note& note);
     bool keep_names(std::string_view text, const Note& note);
     const Note* find(int tool) const;
@@ -77,6 +78,8 @@ class ToolNotes {
     std::vector<std::pair<int, std::string>> texts_of_numbers_;  // folded
     std::vector<Conflict> conflicts_;
     std::vector<bool> lines_;  // that were read
+    int line_ = -1;            // the last one
+    bool is_taken_ = false;    // for a text about a tool
     std::optional<int> largest_number_;
     std::optional<Note> pending_;     // about the next tool
     std::optional<int> window_tool_;  // changed and has not cut yet

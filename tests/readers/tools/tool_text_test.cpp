@@ -206,6 +206,15 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     late.read("6 mm end mill", 9);
     late.change(5);
     EXPECT_EQ(only_tool(late).number, 5);
+    ToolNotes twice;  // the second comment of a line, and the line once more
+    twice.read("Tool Number:1", 3);
+    twice.read("6 mm dia. slot drill", 3);
+    twice.change(1);
+    twice.cut();
+    twice.read("Tool Number:1", 3);
+    twice.read("6 mm dia. slot drill", 3);
+    twice.change(2);
+    EXPECT_EQ(only_tool(twice).number, 1);
     ToolNotes alone;  // a program without T
     alone.read("6 mm end mill", 1);
     alone.cut();
