@@ -451,6 +451,7 @@ export class Scene {
   draw(): void {
     if (this.wanted || !this.job || this.renderer.xr.isPresenting) return;
     this.wanted = true;
+    this.pace.asked(performance.now());
     const go = () => {
       this.wanted = false;
       this.render();
