@@ -19,7 +19,7 @@ using field::BrickCoord;
 
 // State of a chunk that was not examined yet.
 constexpr std::uint64_t kUnseen = 0;
-// A chunk that changes after fewer updates was under the tool, and is not kept.
+// A chunk that changes after fewer updates was under the tool, and is not kept; but where the clock jumped.
 constexpr std::uint64_t kSettled = 30;
 
 std::size_t bytes_of(const PartPicture::Piece& piece) {
@@ -163,7 +163,7 @@ void PartPicture::find_changes(bool rough) {
         std::uint64_t& shown = shown_[number(chunk)];
         if (now == shown) continue;
         std::uint64_t& since = shown_since_[number(chunk)];
-        if (updates_ - since < kSettled) kept_.drop({number(chunk), shown});
+        if (!rough && updates_ - since < kSettled) kept_.drop({number(chunk), shown});
         since = updates_;
         changes_.push_back({chunk, shown != kUnseen, now, false, {}});
         changes_.back().piece.rough = rough;
@@ -182,8 +182,8 @@ void PartPicture::find_rough() {
 void PartPicture::show_changes(const Show& show) {
     for (Change& change : changes_) {
         const Piece* kept = kept_.find({number(change.chunk), change.state});
-        change.found = kept != nullptr;
-        if (kept != nullptr) change.piece = *kept;
+        change.found = kept != nullptr && (change.piece.rough || !kept->rough);
+        if (change.found) change.piece = *kept;
     }
     parallel_(changes_.size(), [&](std::size_t n) {
         Change& change = changes_[n];
@@ -204,7 +204,7 @@ void PartPicture::show_changes(const Show& show) {
         const std::size_t at = number(c.chunk);
         if (c.piece.rough && !is_rough_[at]) drawn_roughly_.push_back(c.chunk);
         is_rough_[at] = c.piece.rough;
-        if (!c.found && !c.piece.rough) {
+        if (!c.found) {
             ++contours_;
             kept_.put({number(c.chunk), c.state}, c.piece, bytes_of(c.piece));
         }

@@ -85,6 +85,30 @@ TEST(PartPicture, finds_again_what_stood_for_a_while) {
     EXPECT_EQ(picture.contours(), made);
 }
 
+// Jumps to and fro, without the time to draw exactly.
+TEST(PartPicture, finds_again_what_it_drew_roughly) {
+    MillSession session(*slot(), serial_for);
+    session.keep_states(0);
+    PartPicture picture(session.stock());
+    Shown shown;
+    const auto jump_to = [&](double t_s) {
+        if (t_s < session.milled_s()) session.set_back(0);
+        ASSERT_TRUE(session.run_to(t_s, {}));
+        picture.mark(picture.all());
+        shown.follow(picture, true);
+    };
+    const double end_s = session.duration_s();
+    const double times[] = {0.2 * end_s, 0.7 * end_s, end_s};
+    for (const double t_s : times) jump_to(t_s);
+    const std::size_t made = picture.contours();
+    EXPECT_GT(made, 8u);
+    for (const std::size_t n : {1u, 0u, 2u, 0u, 1u, 2u}) jump_to(times[n]);
+    EXPECT_EQ(picture.contours(), made);
+    // In the end all is exact, also what was kept roughly.
+    while (shown.rough() > 0) shown.follow(picture);
+    expect_as_fresh(shown, session);
+}
+
 TEST(PartPicture, keeps_nothing_that_was_under_the_tool) {
     MillSession session(*slot(), serial_for);
     session.keep_states(0);
