@@ -72,6 +72,7 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
     const bool has_line = !is_local && output.options.dialect == GcodeDialect::fanuc;
     const Word* from = has_line ? command.use('Q') : nullptr;
     if (has_line && from == nullptr && !command.g(GGroup::tool_length)) from = command.use('H');
+    if (from != nullptr && from->letter == 'H' && from->value == 0) from = nullptr;
     if (from != nullptr && !is_whole(*from, 1)) {
         const std::string letter(1, from->letter);
         return output.refuse(line, from->column, "M98 " + letter + " is not the number of a line",

@@ -34,7 +34,8 @@ class Corner {
         if (!comp_.is_of_text) return follow(programmed);
         comp_.programmed.push_back(programmed);
         const auto done = follow(programmed);
-        if (!done) return mill_as_programmed(done.error());
+        if (!done && does_not_fit_) return mill_as_programmed(done.error());
+        if (!done) return done;
         return comp_.programmed.size() < kMostKept ? done : decide();
     }
 
@@ -106,10 +107,10 @@ class Corner {
         }
         auto moved = offset(contour, comp_.left_mm);
         if (!moved) {
-            return refuse(programmed,
-                          "the arc's radius " + mm_text(distance(contour.start, contour.centre)) +
-                              " is not larger than the cutter's, " + mm_text(std::abs(comp_.left_mm)),
-                          "take a smaller cutter or round the corner more");
+            return refuse_radius(programmed,
+                                 "the arc's radius " + mm_text(distance(contour.start, contour.centre)) +
+                                     " is not larger than the cutter's, " + mm_text(std::abs(comp_.left_mm)),
+                                 "take a smaller cutter or round the corner more");
         }
         if (!comp_.has_begun) return enter(programmed, contour, *moved);
         return join(programmed, contour, *moved);
@@ -132,6 +133,11 @@ class Corner {
     }
     std::unexpected<Error> refuse(const motion::Move& move, std::string cause, std::string remedy) const {
         return output_.refuse(move.line, 1, std::move(cause), std::move(remedy));
+    }
+    // The contour leaves no room for the radius.
+    std::unexpected<Error> refuse_radius(const motion::Move& move, std::string cause, std::string remedy) {
+        does_not_fit_ = true;
+        return refuse(move, std::move(cause), std::move(remedy));
     }
 
     // A dwell, or a move along the tool: it happens at the later end of the last contour move.
@@ -172,17 +178,18 @@ class Corner {
         if (contour.is_arc()) {
             const auto into = arc_into(comp_.at, moved);
             if (!into) {
-                return refuse(programmed, "no arc leads from the start to the offset of this arc's end",
-                              "begin compensation on a straight move");
+                return refuse_radius(programmed,
+                                     "no arc leads from the start to the offset of this arc's end",
+                                     "begin compensation on a straight move");
             }
             comp_.last = *into;
             comp_.waiting.assign(1, along(*into, programmed));
         } else {
             if (contour.length() <= radius) {
-                return refuse(programmed,
-                              "the entry into compensation is " + mm_text(contour.length()) +
-                                  " long, not longer than the cutter's radius of " + mm_text(radius),
-                              "start farther away");
+                return refuse_radius(programmed,
+                                     "the entry into compensation is " + mm_text(contour.length()) +
+                                         " long, not longer than the cutter's radius of " + mm_text(radius),
+                                     "start farther away");
             }
             Element entry = moved;
             comp_.last = moved;
@@ -238,12 +245,13 @@ class Corner {
     Result<void> cut_off(const motion::Move& programmed, Element& moved) {
         const auto meets = meeting(comp_.last, moved);
         if (!meets) {
-            return refuse(programmed,
-                          "the cutter of " + mm_text(2 * std::abs(comp_.left_mm)) +
-                              " diameter does not fit into the inside corner at the start of this block "
-                              "without gouging line " +
-                              std::to_string(comp_.waiting.front().line) + " or this one",
-                          "take a smaller cutter or leave out moves that are too short for it");
+            return refuse_radius(
+                programmed,
+                "the cutter of " + mm_text(2 * std::abs(comp_.left_mm)) +
+                    " diameter does not fit into the inside corner at the start of this block "
+                    "without gouging line " +
+                    std::to_string(comp_.waiting.front().line) + " or this one",
+                "take a smaller cutter or leave out moves that are too short for it");
         }
         motion::Move& first = comp_.waiting.front();
         comp_.last.set_end(*meets);
@@ -264,6 +272,7 @@ class Corner {
     Compensation& comp_;
     Output& output_;
     int u_ = 0, v_ = 1, w_ = 2;
+    bool does_not_fit_ = false;
 };
 
 std::unexpected<Error> refuse_meanwhile(const Command& command, char letter, Code code, const State& state,
