@@ -134,7 +134,6 @@ TEST(GcodeCompensation, TakesTheDiameterFromOptionsTableAndComments) {
     EXPECT_NEAR(aside("(T3 D=2.)\nG41 D3", options), 3, 1e-12);  // the options win
     EXPECT_NEAR(aside("G10 L1 P7 R1.5\nG41 D7"), 1.5, 1e-12);
     EXPECT_NEAR(aside("G42.1 D4"), -2, 1e-12);
-    EXPECT_NEAR(aside("G41.1 D-4"), -2, 1e-12);  // the other side
     EXPECT_NEAR(aside("G41 D0"), 0, 1e-12);
 }
 

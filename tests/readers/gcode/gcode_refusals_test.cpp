@@ -206,7 +206,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G6.2 P3 K0 X10\nK0 X5\nK0 X3\nK1\nG1 X0\n", 3, 1, "has 4 knots and not 6"},
         {ready + "G6.2 P3 K0 X10\nK1 X5\nK2 X3\nK3\nK4\nK5\nG1 X0\n", 3, 1, "do not hold its ends"},
         {ready + "G41.1\n", 3, 1, "without the cutter's diameter"},
-        {ready + "G41.1 D-1002\n", 3, 7, "of 1002 mm is out of range"},
+        {ready + "G41.1 D-2\n", 3, 7, "of -2 mm is out of range"},
         {ready + "G42 D1.5\n", 3, 5, "not the number of a tool"},
         {ready + "G41.1 D4\nG1 X11\n", 4, 1, "not longer than the cutter's radius of 2 mm"},
         {ready + "G41.1 D4\nG1 X20\nG3 X22 Y2 J2\n", 5, 1, "radius 2 mm is not larger than the cutter's"},

@@ -403,12 +403,12 @@ Result<void> begin_compensation(Command& command, State& state, Output& output) 
     const auto found = compensated_diameter(command, *code, state, output);
     if (!found) return std::unexpected(found.error());
     const double diameter_mm = *found;
-    // A negative diameter turns the side.
-    if (!kLimits.offset_diameter.range.contains(std::abs(diameter_mm))) {
+    if (!kLimits.offset_diameter.range.contains(diameter_mm)) {
         const Word* word = command.use('D');
-        return output.refuse(command.line(), word == nullptr ? code->column : word->column,
-                             out_of_range(kLimits.offset_diameter, std::abs(diameter_mm)),
-                             range_remedy(kLimits.offset_diameter));
+        return output.refuse(
+            command.line(), word == nullptr ? code->column : word->column,
+            out_of_range(kLimits.offset_diameter, diameter_mm),
+            range_remedy(kLimits.offset_diameter) + "; use the other side for a negative one");
     }
     if (diameter_mm != 0 && !state.knows_tip()) {
         if (auto known = require_start(command, state, output); !known) return known;
