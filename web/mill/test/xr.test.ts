@@ -60,6 +60,8 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("the pag
       for (const side of ["left", "right"] as const)
         for (const actuator of device.controllers[side].inputSource.gamepad.hapticActuators) watch(actuator);
     });
+    // Not the first visit, which begins with the film.
+    await page.addInitScript(() => localStorage.setItem("tribo.film", "seen"));
     await page.goto(`${server.root}/mill/`);
     await page.waitForSelector("#begin:not([hidden])", { timeout: PATIENCE_MS });
   }, PATIENCE_MS);
