@@ -4,7 +4,7 @@
 import { element } from "@tribo/ui/dom";
 import { t } from "../texts/texts.js";
 import type { Director, Phase, Stage } from "./director.js";
-import { hasPoster, hidePoster, isFilmNew, isStill, rememberFilm } from "./first_visit.js";
+import { hasPoster, hidePoster, isFilmNew, isStill, rememberFilm, withoutPoster } from "./first_visit.js";
 
 const OWN_BUTTONS = "#film-buttons, #film";
 // Keys that lead to the buttons, or do nothing alone.
@@ -64,9 +64,7 @@ export class Film {
 
   /** There is no part to begin with: the page is without film and picture. */
   giveUp(): void {
-    if (!hasPoster()) return;
-    hidePoster();
-    delete document.body.dataset.film;
+    if (!this.plays) withoutPoster();
   }
 
   private async play(which: "PRELUDE" | "FILM"): Promise<void> {

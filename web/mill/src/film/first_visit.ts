@@ -6,6 +6,8 @@ import { recall, remember } from "../page.js";
 
 const SEEN = "film";
 const FADE_MS = 500;
+// The page begins without the picture where that takes longer, or where nobody sees the window.
+const PATIENCE_MS = 2000;
 
 /** Motion is not wanted. */
 export const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
@@ -16,24 +18,31 @@ export const rememberFilm = (): void => remember(SEEN, "seen");
 
 const poster = () => document.getElementById("poster");
 
-/** Shows the picture of the first example's part, as the film will begin; a link opens another job. Waits until it is drawn. */
+/** Shows the picture of the first example's part, as the film will begin; a link opens another job. Waits until it is drawn, but not for long. */
 export async function showPoster(): Promise<void> {
   const picture = poster();
   if (!picture || !isFilmNew() || location.hash !== "") return hidePoster();
   document.body.dataset.film = "prelude";
   picture.hidden = false;
-  try {
+  const drawn = async () => {
     await picture.querySelector("img")!.decode();
-    await new Promise<void>((drawn) => afterPicture(drawn));
-  } catch {
-    hidePoster();
-  }
+    await new Promise<void>((done) => afterPicture(done));
+    return true;
+  };
+  const patience = new Promise<boolean>((done) => setTimeout(() => done(false), PATIENCE_MS));
+  if (!(await Promise.race([drawn().catch(() => false), patience]))) withoutPoster();
 }
 
 /** Whether the picture still stands for the part. */
 export const hasPoster = (): boolean => poster()?.hidden === false;
 
-/** Ends it, at once or with a fade; the page is as it is without the picture. */
+/** The page as it is without film and picture. */
+export function withoutPoster(): void {
+  hidePoster();
+  delete document.body.dataset.film;
+}
+
+/** Ends it, at once or with a fade. */
 export function hidePoster(fades = false): void {
   const picture = poster();
   if (!picture) return;
