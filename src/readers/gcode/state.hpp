@@ -52,7 +52,7 @@ inline constexpr int kMoreWorkSystems = 300;
 inline constexpr int kAllWorkSystems = kWorkSystems + kMoreWorkSystems;
 
 struct WorkSystem {
-    Vec3 origin_mm;       // in the frame of the stock
+    Vec3 origin_mm;       // as stated; State::stock_at_mm says from where
     double turn_deg = 0;  // about the z axis of the stock
     bool set = false;
 };
@@ -221,6 +221,10 @@ struct State {
 
     std::array<WorkSystem, kAllWorkSystems> work;
     int active_work = 0;
+    // The stock's origin, from where the origins of the work systems are stated. It is fixed by the first
+    // move to coordinates: on Fanuc controls work systems are stated from the zero of the machine, and the
+    // stock is taken to stand at the one in which the program begins.
+    std::optional<Vec3> stock_at_mm;
     Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
     std::optional<TiltedPlane> tilt;
@@ -241,9 +245,13 @@ struct State {
     ParallelAxes parallel;
 
     const WorkSystem& active() const { return work[static_cast<std::size_t>(active_work)]; }
+    // Zero of a work system, in the frame of the stock.
+    Vec3 zero_mm(const WorkSystem& system) const {
+        return system.set && stock_at_mm ? system.origin_mm - *stock_at_mm : system.origin_mm;
+    }
     // Zero of the program, in the frame of its axes.
     Vec3 origin_mm() const {
-        const Vec3 origin = tilt ? Vec3{} : turned(active().origin_mm + parallel.at_mm, -active().turn_deg);
+        const Vec3 origin = tilt ? Vec3{} : turned(zero_mm(active()) + parallel.at_mm, -active().turn_deg);
         return preset_on ? origin + preset_mm : origin;
     }
     // Converts the tip to the axes of the work system in force; the axes before were turned by `before_deg`.
@@ -314,6 +322,8 @@ enum class Note {
     bore_by_hand,
     default_feed,
     preset_as_origin,
+    stock_place,
+    moved_origin,
     deletable_blocks,
     rotary_home,
     rotary_feed,

@@ -66,6 +66,25 @@ TEST(GcodeOffsets, G10L2RTurnsTheWorkSystem) {
     expect_near(program.moves[1].arc->normal, {1, 0, 0}, 1e-12);
 }
 
+TEST(GcodeOffsets, FanucStatesWorkSystemsFromTheMachineAndTheStockStandsAtTheFirst) {
+    GcodeOptions fanuc;
+    fanuc.dialect = GcodeDialect::fanuc;
+    const std::string two = "G21 M3 F100\nG10 L2 P1 X-400 Y-200 Z-300\nG10 L2 P2 X-290 Y-200 Z-301\n";
+    const motion::Program both = program_of(two + "G0 X0 Y0 Z5\nG1 X1\nG55 X0 Y0 Z5\n", fanuc);
+    ASSERT_EQ(both.moves.size(), 2U);
+    expect_near(both.moves[0].end.tip_mm, {1, 0, 5});
+    expect_near(both.moves[1].end.tip_mm, {110, 0, 4});
+    EXPECT_TRUE(warns_of(both, 4, "taken at the zero of that work system"));
+    EXPECT_TRUE(warns_of(both, 6, "zero at X110 Y0 Z-1 mm from the stock's origin"));
+    // The way home before them names no place; the system that the program begins in counts, not the first.
+    const motion::Program second = program_of(
+        "G21 M3 F100\nG90 G28 X0 Y0 Z0\n#5241=-30\nG55 G0 X0 Y0 Z5\nG1 X1\nX#5241\nG92 X0\nX2\n", fanuc);
+    ASSERT_EQ(second.moves.size(), 3U);
+    expect_near(second.moves[0].end.tip_mm, {1, 0, 5});
+    expect_near(second.moves[1].end.tip_mm, {-30, 0, 5});
+    expect_near(second.moves[2].end.tip_mm, {-28, 0, 5});
+}
+
 TEST(GcodeOffsets, ToolLengthsOutOfTheProgramMoveNoTip) {
     expect_ends("G43.1 Z20\nX6\nG49\nX7\n", {{6, 3, 5}, {7, 3, 5}});
     EXPECT_TRUE(warns_of(program_of("G21 G0 X0 Y0 Z0\nG43.1 Z3\nX1\n"), 2, "G43.1"));

@@ -149,7 +149,8 @@ TEST(GcodeReader, AppliesWorkOffsetsThatTheProgramSets) {
     expect_near(program.moves[0].end.tip_mm, {11, 20, 0});
     expect_near(program.moves[1].end.tip_mm, {1, 20, 0});
     expect_near(program.moves[2].end.tip_mm, {1, 20, 5});
-    EXPECT_TRUE(program.warnings.empty());
+    ASSERT_EQ(program.warnings.size(), 1U);
+    EXPECT_TRUE(warns_of(program, 4, "zero at X10 Y20 Z0 mm from the stock's origin"));
     EXPECT_TRUE(warns_of(program_of("G21 G55 G0 X0\n"), 1, "G55"));
 }
 

@@ -85,7 +85,33 @@ Result<void> append_straight(motion::MoveKind kind, Vec3 to_mm, Command& command
     return append(move, state, output);
 }
 
+void place_stock(const Command& command, State& state, Output& output) {
+    const bool goes_home = command.has_g(GGroup::non_modal, 280) || command.has_g(GGroup::non_modal, 300);
+    if (state.stock_at_mm || goes_home || !command.has_any("XYZ")) return;
+    state.stock_at_mm = Vec3{};
+    const WorkSystem& begins_in = state.active();
+    if (output.options.dialect != GcodeDialect::fanuc || !begins_in.set) return;
+    state.stock_at_mm = begins_in.origin_mm;
+    if (begins_in.origin_mm != Vec3{} && output.first(Note::stock_place)) {
+        output.warn(command.line(),
+                    "the program states its work system from the zero of the machine: the stock's origin is "
+                    "taken at the zero of that work system");
+    }
+}
+
 namespace {
+
+// Says where the zero of the program lies, if work offsets have put it beside the stock's origin.
+void say_zero(const Command& command, const State& state, Output& output) {
+    if (!state.active().set || !command.has_any("XYZ")) return;
+    const Vec3 zero = state.zero_mm(state.active());
+    if (zero == Vec3{} || !output.first(Note::moved_origin)) return;
+    std::string place;
+    for (int axis = 0; axis < 3; ++axis)
+        place += " " + std::string(1, "XYZ"[axis]) + short_decimal(zero[axis]);
+    output.warn(command.line(), "work offsets in the program put its zero at" + place +
+                                    " mm from the stock's origin: set up the stock for that");
+}
 
 // The same in coordinates that are written turned, scaled, mirrored or polar.
 Result<Target> target_in_frame(Command& command, State& state, Output& output) {
@@ -124,6 +150,8 @@ Result<Target> target_in_frame(Command& command, State& state, Output& output) {
 // Returns the target of the axis words. In G91 an axis without a stated position starts at the zero of the
 // program.
 Result<Target> target_of(Command& command, State& state, Output& output) {
+    place_stock(command, state, output);
+    say_zero(command, state, output);
     const auto way = move_parallel_axes(command, state, output);
     if (!way) return std::unexpected(way.error());
     if (!state.frame.is_plain()) return target_in_frame(command, state, output);

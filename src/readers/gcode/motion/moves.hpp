@@ -27,6 +27,9 @@ Result<std::optional<double>> coordinate_mm(Command& command, int axis, State& s
 // Returns a move that starts and ends at the tip, with tool, spindle and line of the block.
 motion::Move new_move(motion::MoveKind kind, const Command& command, const State& state);
 
+// Fixes where the stock stands, at the first block with coordinates (State::stock_at_mm).
+void place_stock(const Command& command, State& state, Output& output);
+
 struct Target {
     Vec3 tip_mm;
     std::array<Known, 3> known;

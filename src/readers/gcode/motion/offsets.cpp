@@ -220,6 +220,7 @@ Result<void> preset(Command& command, State& state, Output& output, int column) 
         if (command.has_any("ABCEUVW")) return {};
         return output.refuse(command.line(), column, "G92 without coordinates", "write X, Y or Z after it");
     }
+    place_stock(command, state, output);
     if (!state.preset_on) state.preset_mm = {};
     state.preset_on = true;
     for (int axis = 0; axis < 3; ++axis) {
