@@ -99,6 +99,8 @@ class Path {
     // axes determine it.
     void aim(Vec3 axis) { aim_ = axis; }
     Vec3 axis() const { return aim_; }
+    // The tool axis where the tool stands, in the stock.
+    Vec3 axis_in_stock() const { return pose_in_stock().axis; }
 
     // Adds a tool of TOOL DEF to the program; once for a line, which a loop may run again.
     void declare(const motion::DeclaredTool& tool);

@@ -78,7 +78,15 @@ Result<void> Interpreter::read_named_value(Cursor& in, const std::string& name, 
         }
         return {};
     }
+    const std::size_t begin = in.at;
     auto value = amount(in);
+    if (!value && words.machine_place && name.size() == 1) {
+        // A place of the machine, by a variable that it keeps: where it is, does not matter here.
+        in.at = begin;
+        in.skip_blanks();
+        while (in.at < in.line.size() && !is_blank(in.line[in.at])) ++in.at;
+        value = Amount{};
+    }
     if (!value) return std::unexpected(value.error());
     value->column = static_cast<int>(at) + 1;
     return take_address(in, name, *value, words);

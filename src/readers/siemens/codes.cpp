@@ -28,7 +28,6 @@ constexpr Refused kRefusedG[] = {
     {5, 5, "grinding along an inclined axis", "only milling is read"},
     {7, 7, "grinding along an inclined axis", "only milling is read"},
     {33, 35, "threads of a lathe", "write G331, or a thread cycle"},
-    {58, 59, "shifts in single axes", "write TRANS or ATRANS"},
     {83, 89, "cycles of the Sinumerik 8xx", "write CYCLE83 to CYCLE89"},
     {147, 148, "ways to and from a contour", "write the way with G1 to G3"},
     {247, 248, "ways to and from a contour", "write the way with G1 to G3"},
@@ -213,7 +212,13 @@ Result<void> Interpreter::apply_g(Words& words, const Code& code) {
         default:
             break;
     }
-    if ((g >= 54 && g <= 57) || g == 500 || (g >= 505 && g <= 599)) {
+    // A work offset of the 802D; on the 840D a shift of the axes beside it, in a block of its own.
+    const bool is_shift = (g == 58 || g == 59) && words.has_linear() && words.g.size() == 1;
+    if (is_shift) {
+        words.frame = g == 58 ? "G58" : "G59";
+        return {};
+    }
+    if ((g >= 54 && g <= 59) || g == 500 || (g >= 505 && g <= 599)) {
         if (auto done = close_contour(); !done) return done;
         set_work_offset(g);
         return set_frame(line_number());

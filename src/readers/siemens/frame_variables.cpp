@@ -78,6 +78,7 @@ Result<void> Interpreter::assign_frame(const std::string& name, const std::vecto
     } else if (auto done = set_frame_part(*frame, index, parts, at, in); !done) {
         return done;
     }
+    if (frame == &turned_) absolute_shift_ = turned_.origin_mm;
     return frame_variables_.contains(name) ? Result<void>{} : set_frame(line_number());
 }
 

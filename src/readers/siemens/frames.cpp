@@ -9,6 +9,7 @@ namespace tribo::readers::siemens {
 namespace {
 
 constexpr Range kScale{1e-3, 1e3};
+constexpr double kParallel = 1e-9;  // sine of the angle between two directions
 
 Vec3 unit(int axis) {
     Vec3 direction;
@@ -53,7 +54,7 @@ void Interpreter::set_work_offset(int code) {
 Result<void> Interpreter::set_frame(int line) {
     if (auto done = close_contour(); !done) return done;
     contour_.leave();
-    const motion::WorkFrame frame = joined(joined(outer_frame(), swivelled_), turned_);
+    const motion::WorkFrame frame = joined(joined(joined(outer_frame(), swivelled_), along_tool_), turned_);
     const bool turns = frame.x != path_.frame.x || frame.y != path_.frame.y || frame.z != path_.frame.z;
     const bool is_partly_known =
         !path_.knows_tip() &&
@@ -90,12 +91,15 @@ Result<motion::WorkFrame> Interpreter::turned_within(const motion::WorkFrame& fr
     return turned_by(frame, rad);
 }
 
-// TRANS, ROT, SCALE and MIRROR delete what was before them; ATRANS, AROT, ASCALE and AMIRROR add to it.
+// TRANS, ROT, SCALE and MIRROR delete what was before them; ATRANS, AROT, ASCALE and AMIRROR add to it. G58
+// and G59 shift the axes beside them.
 Result<void> Interpreter::transform(const Words& words) {
-    const bool adds = words.frame[0] == 'A';
-    const std::string kind = adds ? words.frame.substr(1) : words.frame;
+    const bool shifts_axes = words.frame[0] == 'G';
+    const bool adds = words.frame[0] == 'A' || shifts_axes;
+    const std::string kind = shifts_axes ? "TRANS" : adds ? words.frame.substr(1) : words.frame;
     if (!adds) {
         turned_ = {};
+        absolute_shift_ = {};
         scale_ = {1, 1, 1};
     }
     for (const auto& word : words.linear) {
@@ -121,6 +125,10 @@ Result<void> Interpreter::transform(const Words& words) {
         if (auto done = turn_frame(words); !done) return done;
         return set_frame(line_number());
     }
+    if (shifts_axes) {
+        shift_axes(words);
+        return set_frame(line_number());
+    }
     Vec3 shift;
     for (int k = 0; k < 3; ++k) {
         const auto& word = words.linear[static_cast<std::size_t>(k)];
@@ -131,6 +139,54 @@ Result<void> Interpreter::transform(const Words& words) {
         if (auto done = take_scale(scale_[k], word->value, place(word->column)); !done) return done;
     }
     if (kind == "TRANS") turned_ = turned_.shifted(in_frame(shift));
+    if (!adds) absolute_shift_ = turned_.origin_mm;
+    return set_frame(line_number());
+}
+
+// G58 replaces what TRANS has shifted, G59 what ATRANS has added, in the axes that it names.
+void Interpreter::shift_axes(const Words& words) {
+    for (int k = 0; k < 3; ++k) {
+        const auto& word = words.linear[static_cast<std::size_t>(k)];
+        if (!word) continue;
+        const double shift = word->value * unit_mm_;
+        if (words.frame == "G58") {
+            turned_.origin_mm[k] += shift - absolute_shift_[k];
+            absolute_shift_[k] = shift;
+        } else {
+            turned_.origin_mm[k] = absolute_shift_[k] + shift;
+        }
+    }
+}
+
+// TOROT: the axes turn so that Z lies along the tool and X stays in the plane of the old X and Z; TOFRAME:
+// and their zero is at the tip. TOROTOF, TOFRAMEOF: as before.
+Result<void> Interpreter::frame_along_tool(const Words& words) {
+    along_tool_ = {};
+    if (words.tool_frame.ends_with("OF")) return set_frame(line_number());
+    if (path_.machine && !path_.tip_control) {
+        return path_.refuse(place(words.first_column), words.tool_frame + " without TRAORI is not read",
+                            "write CYCLE800, or TRAORI before it");
+    }
+    if (auto done = set_frame(line_number()); !done) return done;
+    const motion::WorkFrame before = path_.frame, outer = joined(outer_frame(), swivelled_);
+    motion::WorkFrame total;
+    total.z = path_.axis_in_stock();
+    const Vec3 x = cross(before.y, total.z);
+    // A tool along Y leaves X where it was.
+    total.x = length(x) < kParallel ? before.x : (dot(x, before.x) < 0 ? -1 : 1) * normalized(x);
+    total.y = cross(total.z, total.x);
+    const auto turned = [&](Vec3 unit) {
+        return outer.direction_from_stock(total.direction_in_stock(turned_.direction_from_stock(unit)));
+    };
+    along_tool_ = {{}, turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
+    if (words.tool_frame.starts_with("TOFRAME")) {
+        if (!path_.knows_tip()) {
+            return path_.refuse(place(words.first_column), "TOFRAME where only the machine knows the place",
+                                "write X, Y and Z with G0 before it");
+        }
+        const Vec3 tip = outer.from_stock(before.in_stock(path_.tip()));
+        along_tool_.origin_mm = tip - along_tool_.direction_in_stock(turned_.origin_mm);
+    }
     return set_frame(line_number());
 }
 
@@ -174,7 +230,7 @@ Result<void> Interpreter::swivel(const Call& call) {
         if (auto good = path_.in_range(kLimits.rotary_angle, angle[k], where); !good) return good;
         angle[k] *= math::kRadPerDeg;
     }
-    motion::WorkFrame plane = adds ? joined(swivelled_, turned_) : motion::WorkFrame{};
+    motion::WorkFrame plane = adds ? joined(joined(swivelled_, along_tool_), turned_) : motion::WorkFrame{};
     if (resets) {
         plane = {};
     } else {
@@ -200,7 +256,8 @@ Result<void> Interpreter::swivel(const Call& call) {
         plane = plane.shifted(after);
     }
     swivelled_ = plane;
-    turned_ = {};
+    along_tool_ = turned_ = {};
+    absolute_shift_ = {};
     scale_ = {1, 1, 1};
     pole_.reset();
     tangent_ = {};

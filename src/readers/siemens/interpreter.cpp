@@ -127,6 +127,9 @@ Result<void> Interpreter::run_words(Words& words) {
     if (auto done = apply_codes(words); !done) return done;
     if (ended_) return {};
     const bool dwells = std::any_of(words.g.begin(), words.g.end(), [](Code c) { return c.number == 4; });
+    if (!words.tool_frame.empty()) {
+        if (auto done = frame_along_tool(words); !done) return done;
+    }
     if (!words.frame.empty()) {
         if (auto done = transform(words); !done) return done;
     } else if (dwells) {

@@ -56,13 +56,15 @@ enum Note {
     kTipControl,
     kPolar,
     kOtherStock,
+    kCurveThroughPoints,
 };
 
 inline constexpr int kDeepestCall = 24;          // of calls and repeats within each other
 inline constexpr std::size_t kNoParameter = 99;  // a cycle has none of it
 
-// A BSPLINE: its control points so far.
+// A spline: its control points so far, or the points that it leads through.
 struct Spline {
+    Motion kind = Motion::bspline;
     std::vector<motion::HomogeneousPoint> control;
     std::size_t degree = 3;
     std::optional<double> knot_step;  // PL
@@ -190,6 +192,8 @@ class Interpreter : private SystemValues {
     // Frames (frames.cpp)
     Result<void> transform(const Words& words);
     Result<void> turn_frame(const Words& words);
+    void shift_axes(const Words& words);
+    Result<void> frame_along_tool(const Words& words);
     Result<void> take_scale(double& scale, double factor, Place where) const;
     Result<motion::WorkFrame> turned_within(const motion::WorkFrame& frame, const Vec3& scale, Vec3 rad,
                                             Place where) const;
@@ -331,10 +335,12 @@ class Interpreter : private SystemValues {
     motion::WorkFrame base_frame_;                              // $P_BFRAME: without the work offset
     std::map<std::string, motion::WorkFrame> frame_variables_;  // DEF FRAME
     motion::WorkFrame swivelled_;                               // of CYCLE800, within the work offset
+    motion::WorkFrame along_tool_;                              // TOROT and TOFRAME, within it
     motion::WorkFrame turned_;                                  // TRANS and ROT, within it
-    Vec3 scale_{1, 1, 1};                       // SCALE, and MIRROR: negative; along the axes of turned_
-    Vec3 target_rad_;                           // of the rotary axes at the end of the block
-    bool turns_ = false;                        // the tool or a rotary axis turns in the block
+    Vec3 absolute_shift_;  // TRANS and G58: the share of turned_'s origin that ATRANS and G59 add to
+    Vec3 scale_{1, 1, 1};  // SCALE, and MIRROR: negative; along the axes of turned_
+    Vec3 target_rad_;      // of the rotary axes at the end of the block
+    bool turns_ = false;   // the tool or a rotary axis turns in the block
     bool euler_ = true, euler_stated_ = false;  // A2 B2 C2 are Euler angles, not roll, pitch and yaw
     bool is_spatial_ = false;                   // CUT3DC and the like: compensation in space
 

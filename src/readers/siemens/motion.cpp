@@ -42,7 +42,8 @@ Result<void> Interpreter::move(const Words& words) {
         if (auto done = run_polynomial(words, to); !done) return done;
         return run_modal();
     }
-    if (motion_ == Motion::bspline || motion_ == Motion::spline) return add_to_spline(words, to);
+    if (motion_ == Motion::bspline || motion_ == Motion::akima || motion_ == Motion::cubic)
+        return add_to_spline(words, to);
     std::optional<motion::Arc> arc;
     if (is_arc && !words.positions) {
         // A machine turns its axes evenly along the circle (Job Planning 02/2011, 6.2.3).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// BSPLINE and POLY.
+// BSPLINE, ASPLINE, CSPLINE and POLY.
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +14,74 @@ constexpr double kHighestDegree = 3;
 constexpr Range kWeight{0.01, 100};
 constexpr Range kParameter{1e-6, 1e6};
 
+using Curve = motion::BSpline<motion::HomogeneousPoint>;
+
+// Derivatives at the points by Akima (1970): between the slopes beside a point, nearer to that one which
+// differs less from the next one on its side. Beyond the ends the slopes go on evenly.
+std::vector<Vec3> akima_tangents(const std::vector<Vec3>& slope) {
+    const std::size_t count = slope.size();
+    if (count == 1) return {slope[0], slope[0]};
+    std::vector<Vec3> m;  // with two slopes more at each end
+    m.push_back(3 * slope[0] - 2 * slope[1]);
+    m.push_back(2 * slope[0] - slope[1]);
+    m.insert(m.end(), slope.begin(), slope.end());
+    m.push_back(2 * slope[count - 1] - slope[count - 2]);
+    m.push_back(3 * slope[count - 1] - 2 * slope[count - 2]);
+    std::vector<Vec3> tangents;
+    for (std::size_t i = 0; i <= count; ++i) {
+        const double before = length(m[i + 1] - m[i]), behind = length(m[i + 3] - m[i + 2]);
+        const double sum = before + behind;
+        const double share = sum > 0 ? before / sum : 0.5;  // of the slope behind the point
+        tangents.push_back((1 - share) * m[i + 1] + share * m[i + 2]);
+    }
+    return tangents;
+}
+
+// The same of the cubic spline with steady bend, and none at its ends (Thomas's elimination).
+std::vector<Vec3> natural_tangents(const std::vector<Vec3>& slope, const std::vector<double>& chord) {
+    const std::size_t count = slope.size();
+    std::vector<double> upper(count + 1);
+    std::vector<Vec3> tangents(count + 1);
+    upper[0] = 0.5;
+    tangents[0] = 1.5 * slope[0];
+    for (std::size_t i = 1; i <= count; ++i) {
+        const bool is_last = i == count;
+        const double low = is_last ? 1 : 1 / chord[i - 1], high = is_last ? 0 : 1 / chord[i];
+        const double own = is_last ? 2 : 2 * (low + high);
+        const Vec3 right = is_last ? 3 * slope[i - 1] : 3 * (low * slope[i - 1] + high * slope[i]);
+        const double pivot = own - low * upper[i - 1];
+        upper[i] = high / pivot;
+        tangents[i] = (right - low * tangents[i - 1]) / pivot;
+    }
+    for (std::size_t i = count; i > 0; --i) tangents[i - 1] = tangents[i - 1] - upper[i - 1] * tangents[i];
+    return tangents;
+}
+
+// The curve through the points, in cubic pieces; the parameter is the length of the chords.
+Curve through(const std::vector<motion::HomogeneousPoint>& points, bool by_akima) {
+    std::vector<Vec3> slope;
+    std::vector<double> chord;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Vec3 way = points[i].xyz - points[i - 1].xyz;
+        chord.push_back(length(way));
+        slope.push_back(way / chord.back());
+    }
+    const std::vector<Vec3> tangents = by_akima ? akima_tangents(slope) : natural_tangents(slope, chord);
+    Curve curve;
+    curve.degree = 3;
+    curve.control.push_back({points[0].xyz, 1});
+    curve.knots.assign(4, 0);
+    for (std::size_t i = 0; i < chord.size(); ++i) {
+        const Vec3 from = points[i].xyz, to = points[i + 1].xyz;
+        curve.control.push_back({from + chord[i] / 3 * tangents[i], 1});
+        curve.control.push_back({to - chord[i] / 3 * tangents[i + 1], 1});
+        curve.control.push_back({to, 1});
+        curve.knots.insert(curve.knots.end(), 3, curve.knots.back() + chord[i]);
+    }
+    curve.knots.push_back(curve.knots.back());
+    return curve;
+}
+
 double choose(std::size_t n, std::size_t k) {
     double value = 1;
     for (std::size_t i = 0; i < k; ++i)
@@ -27,9 +95,11 @@ double choose(std::size_t n, std::size_t k) {
 // one apart, as without PL.
 Result<void> Interpreter::add_to_spline(const Words& words, Vec3 to) {
     const Place where = place(words.first_column);
-    if (motion_ == Motion::spline) {
-        return path_.refuse(where, "ASPLINE and CSPLINE (curves that the control chooses) are not read",
-                            "let the CAM system write BSPLINE, or G1 to G3");
+    const bool through_points = motion_ == Motion::akima || motion_ == Motion::cubic;
+    if (through_points && path_.first(kCurveThroughPoints)) {
+        path_.warn(line_number(),
+                   "ASPLINE and CSPLINE lead through their points: between them the curve of Akima, or the "
+                   "natural cubic spline, over the lengths of the chords is taken");
     }
     if (side_ != 0 || turns_) {
         return path_.refuse(where, "a spline with radius compensation or a turning tool is not read",
@@ -42,6 +112,7 @@ Result<void> Interpreter::add_to_spline(const Words& words, Vec3 to) {
         spline_.emplace();
         spline_->control.push_back({path_.tip(), 1});
         spline_->place = where;
+        spline_->kind = motion_;
     }
     if (words.degree) {
         if (!(*words.degree >= 2 && *words.degree <= kHighestDegree)) {
@@ -53,7 +124,7 @@ Result<void> Interpreter::add_to_spline(const Words& words, Vec3 to) {
     if (!kWeight.contains(weight)) {
         return path_.refuse(where, "PW is out of range", "write a weight of 0.01 to 100");
     }
-    if (words.knot_step) {
+    if (words.knot_step && !through_points) {
         if (*words.knot_step != spline_->knot_step.value_or(*words.knot_step) || !(*words.knot_step > 0)) {
             return path_.refuse(where, "a BSPLINE with different PL is not read",
                                 "let the CAM system write equal ones, or G1 to G3");
@@ -63,6 +134,7 @@ Result<void> Interpreter::add_to_spline(const Words& words, Vec3 to) {
     if (spline_->control.size() >= kMostControlPoints) {
         return path_.refuse(where, "the spline has too many points", "write it in parts");
     }
+    if (through_points && to == spline_->control.back().xyz) return {};
     spline_->control.push_back({to, weight});
     return {};
 }
@@ -71,7 +143,14 @@ Result<void> Interpreter::close_spline() {
     if (!spline_) return {};
     const Spline spline = *std::move(spline_);
     spline_.reset();
-    motion::BSpline<motion::HomogeneousPoint> curve;
+    if (spline.control.size() < 2) return {};
+    if (spline.kind != Motion::bspline) {
+        const Curve curve = through(spline.control, spline.kind == Motion::akima);
+        tangent_ = normalized(curve.control.back().xyz - curve.control[curve.control.size() - 2].xyz,
+                              spline.control.back().xyz - spline.control[spline.control.size() - 2].xyz);
+        return path_.follow(curve, spline.place);
+    }
+    Curve curve;
     const std::size_t count = spline.control.size();
     curve.degree = std::min(spline.degree, count - 1);
     for (const motion::HomogeneousPoint& p : spline.control) curve.control.push_back({p.w * p.xyz, p.w});
@@ -117,7 +196,7 @@ Result<void> Interpreter::run_polynomial(const Words& words, Vec3 to) {
             power[1][k] -= mm;
         }
     }
-    motion::BSpline<motion::HomogeneousPoint> curve;
+    Curve curve;
     curve.degree = degree;
     for (std::size_t j = 0; j <= degree; ++j) {
         Vec3 point;

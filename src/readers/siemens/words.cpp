@@ -58,12 +58,10 @@ constexpr Refused kRefused[] = {
     {"ROTS", "frames by solid angles", kFrames},
     {"AROTS", "frames by solid angles", kFrames},
     {"CROTS", "frames by solid angles", kFrames},
-    {"TOFRAME", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
-    {"TOFRAMEX", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
-    {"TOFRAMEY", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
-    {"TOROT", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
-    {"TOROTX", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
-    {"TOROTY", "frames along the tool", "write CYCLE800, or TRANS and ROT"},
+    {"TOFRAMEX", "frames whose X lies along the tool", "write TOFRAME"},
+    {"TOFRAMEY", "frames whose Y lies along the tool", "write TOFRAME"},
+    {"TOROTX", "frames whose X lies along the tool", "write TOROT"},
+    {"TOROTY", "frames whose Y lies along the tool", "write TOROT"},
     {"MEAW", "moves that end where a probe touches", "take the measurement out of the program"},
     {"REPOS", "the return to a contour", kPlain},
     {"ISOCALL", "programs of another control", "copy its path into this program"},
@@ -72,8 +70,8 @@ constexpr Refused kRefused[] = {
     {"GEOAX", "other axes in the place of X, Y and Z", kPlain},
 };
 
-// Ends TOROT and the like: the frame is that of the program again.
-constexpr std::string_view kFrameEnds[] = {"TOROTOF", "TOFRAMEOF", "PAROTOF"};
+// Frames along the tool, and their end.
+constexpr std::string_view kToolFrames[] = {"TOROT", "TOROTZ", "TOFRAME", "TOFRAMEZ", "TOROTOF", "TOFRAMEOF"};
 
 constexpr std::string_view kFrameWords[] = {"TRANS", "ATRANS", "ROT",    "AROT",
                                             "SCALE", "ASCALE", "MIRROR", "AMIRROR"};
@@ -83,8 +81,8 @@ struct NamedMotion {
     Motion motion;
 };
 constexpr NamedMotion kMotions[] = {
-    {"CIP", Motion::through_point}, {"CT", Motion::tangent},     {"BSPLINE", Motion::bspline},
-    {"ASPLINE", Motion::spline},    {"CSPLINE", Motion::spline}, {"POLY", Motion::poly},
+    {"CIP", Motion::through_point}, {"CT", Motion::tangent},    {"BSPLINE", Motion::bspline},
+    {"ASPLINE", Motion::akima},     {"CSPLINE", Motion::cubic}, {"POLY", Motion::poly},
 };
 
 bool is_cycle(std::string_view name) {
@@ -237,7 +235,10 @@ Result<bool> Interpreter::read_keyword(Cursor& in, const std::string& name, Word
         return true;
     }
     if (is_one_of(kSilent, name)) return skip_rest();
-    if (is_one_of(kFrameEnds, name)) return true;
+    if (is_one_of(kToolFrames, name)) {
+        words.tool_frame = name;
+        return true;
+    }
     if (is_one_of(kFrameWords, name)) {
         words.frame = name;
         return true;

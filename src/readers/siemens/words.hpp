@@ -58,7 +58,8 @@ enum class Motion {
     through_point,
     tangent,
     bspline,
-    spline,
+    akima,  // ASPLINE
+    cubic,  // CSPLINE
     poly
 };
 
@@ -80,7 +81,8 @@ struct Words {
     std::optional<double> tool;
     std::optional<Motion> motion;
     std::vector<Code> g, m;
-    std::string frame;  // TRANS, AROT ...; empty: none
+    std::string frame;       // TRANS, AROT, G58 ...; empty: none
+    std::string tool_frame;  // TOROT, TOFRAME, TOROTOF ...; empty: none
     std::optional<bool> tip_control;
     std::optional<Call> cylinder;  // TRACYL
     bool is_polar = false;         // TRANSMIT

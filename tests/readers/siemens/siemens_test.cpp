@@ -79,6 +79,11 @@ TEST(Siemens, FramesShiftTurnScaleAndMirror) {
         {"AROT Z90\nAMIRROR X0\nX1 Y2 Z3", {-2, -1, 3}},
         {"MIRROR X0\nAROT Z90\nX1 Y2 Z3", {2, 1, 3}},
         {"ROT Z90\nROT\nX1 Y2 Z3", {1, 2, 3}},
+        {"TRANS X10 Y20\nATRANS X1\nG58 X5\nX1 Y1 Z1", {7, 21, 1}},
+        {"TRANS X10 Y20\nATRANS X1\nG59 X5 Z3\nX1 Y1 Z1", {16, 21, 4}},
+        {"TRANS X10\nAROT Z90\nG58 X20\nG59 X1\nX1 Y2 Z3", {19, 1, 3}},
+        {"$P_PFRAME=CTRANS(X,10):CROT(Z,90)\nG58 X20\nX1 Y2 Z3", {18, 1, 3}},
+        {"G58\nX1 Y2 Z3", {1, 2, 3}},  // of the 802D: a work offset
         {"$P_UIFR[1]=CTRANS(X,5,Y,6):CROT(Z,90)\nG54 X1 Y0 Z0", {5, 7, 0}},
         {"$P_UIFR[2,X,TR]=5\nG55 X1 Y0 Z0", {6, 0, 0}},
         {"$P_UIFR[2,X,TR]=5\nG55\nTRANS X1\nG500 X1 Y0 Z0", {2, 0, 0}},
@@ -195,6 +200,56 @@ TEST(Siemens, SplinesAndPolynomials) {
     const auto on = [](double p) { return Vec3{5 * p, 2 * p * p, 10}; };
     for (int i = 0; i < 20'000; ++i) arc += distance(on(i / 1e4), on((i + 1) / 1e4));
     EXPECT_NEAR(feed_mm(poly), arc + 10, 1e-4);
+}
+
+TEST(Siemens, LeadsSplinesThroughTheirPoints) {
+    const auto nearest = [](const motion::Program& program, Vec3 p) {
+        double least = 1e9;
+        for (const motion::Move& move : program.moves)
+            for (int i = 0; i <= 100; ++i)
+                least = std::min(least, distance(motion::pose_at(move, 0.01 * i).tip_mm, p));
+        return least;
+    };
+    // The natural spline through three points of even chords: 1.5 u - 0.5 u^3 of the rise after a share u.
+    const motion::Program cubic = siemens("F100\nCSPLINE X10 Y10\nX20 Y0\nG1 X30\n");
+    EXPECT_TRUE(warns_of(cubic, 5, "natural cubic spline"));
+    for (const Vec3 p : {Vec3{10, 10, 10}, Vec3{20, 0, 10}, Vec3{2, 2.96, 10}, Vec3{18, 2.96, 10}})
+        EXPECT_LT(nearest(cubic, p), 0.02);
+    expect_near(end_of(cubic), {30, 0, 10});
+    // Akima's curve follows points on a line until the last of them, a natural spline swings before.
+    const std::string bend = " X10 Y0\nX20\nX30 Y10\nX40 Y15\nG0 Z50\n";
+    const auto lowest = [&](const std::string& word) {
+        double y = 0;
+        for (const motion::Move& move : siemens("F100\n" + word + bend).moves)
+            y = std::min(y, move.end.tip_mm.y);
+        return y;
+    };
+    EXPECT_NEAR(lowest("ASPLINE"), 0, 1e-9);
+    EXPECT_LT(lowest("CSPLINE"), -0.2);
+    // Two points, and one of them twice: a line.
+    EXPECT_NEAR(feed_mm(siemens("F100\nCSPLINE X30 Y40\nX30 Y40\nG0 Z50\n")), 50, 1e-9);
+    EXPECT_NEAR(feed_mm(siemens("F100\nASPLINE X0 Y0\nG0 Z50\n")), 0, 1e-9);
+}
+
+TEST(Siemens, TurnsFramesAlongTheTool) {
+    const std::string leans = "TRAORI\nG0 X10 Y0 Z0 A3=3 B3=0 C3=4\n";  // x of the frame: 0.8, 0, -0.6
+    const struct {
+        std::string text;
+        Vec3 end;
+    } cases[] = {
+        {leans + "TOROT\nG91 Z10", {16, 0, 8}},
+        {leans + "TOROT\nX0 Y0 Z10", {6, 0, 8}},
+        {leans + "TOFRAME\nX5 Y1 Z10", {20, 1, 5}},
+        {leans + "TOFRAME\nG91 X5 Z10\nTOFRAMEOF\nG90 X1 Y2 Z3", {1, 2, 3}},
+        {"TRANS X100\n" + leans + "TOROT\nTOROT\nG91 Z10", {116, 0, 8}},
+        {"TRANS X100\n" + leans + "TOFRAME\nTRANS\nX0 Y0 Z0", {30, 0, 60}},
+        {"ROT Z90\n" + leans + "TOROT\nG91 Z10", {0, 16, 8}},
+        {"TRAORI\nG0 X10 Y0 Z0 A3=0 B3=1 C3=0\nTOROT\nG91 Z10 X1", {11, 10, 0}},
+    };
+    for (const auto& c : cases) {
+        SCOPED_TRACE(c.text);
+        expect_near(end_of(siemens(c.text + "\n")), c.end, 1e-9);
+    }
 }
 
 TEST(Siemens, SwivelsPlanes) {
@@ -370,7 +425,8 @@ TEST(Siemens, RefusesWithPlaceCauseAndRemedy) {
         {start + "CYCLE800(0,\"\",0,192,0,0,0,10,20,0,0,0,0,1)\n", 4, 1, "the machine's own axes"},
         {start + "SCALE X2\nF100 G2 X10 Y0 I5 J0\n", 5, 1, "a circle in a frame with different scales"},
         {start + "SCALE X0\n", 4, 7, "the scale is out of range"},
-        {start + "CSPLINE X1 Y1\n", 4, 1, "ASPLINE and CSPLINE"},
+        {start + "TOROTX\n", 4, 1, "TOROTX (frames whose X"},
+        {start + "AROTS X5 Y5\n", 4, 1, "AROTS (frames by solid angles)"},
         {start + "F100 G1 X10 RND=50\nY10\n", 4, 1, "RND of 50 mm does not fit"},
         {start + "@100 K5\n", 4, 1, "@ codes"},
         {start + "G1 X5\n", 4, 1, "a feed move before any F"},
