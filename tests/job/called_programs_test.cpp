@@ -60,6 +60,22 @@ TEST(CalledPrograms, of_fanuc_controls_lie_beside_by_their_number) {
     EXPECT_NE(refused.error().remedy.find("lay its file beside"), std::string::npos);
 }
 
+TEST(CalledPrograms, of_fanuc_controls_have_names) {
+    MemorySource files;
+    files.put("MAIN.NC",
+              "%\n<MAIN>\nG21 G90 M3 S1000 F100\nG0 X0 Y0 Z0\nM98<SLOT> L2\nG65 <deep> Z3.\nG1 X0\nM30\n"
+              "<SLOT>\nG91 G1 X10.\nG90\nM99\n%\n");
+    files.put("deep.nc", "%\n<DEEP>(MACRO)\nG1 Z-#26\nM99\n%\n");
+    EXPECT_NEAR(feed_mm(read(files, "MAIN.NC")), 20 + 3 + 20, 1e-9);
+    files.put("bare.nc", "G1 Y7\n");
+    files.put("TWO.NC", "<TWO>\nG21 F100 M3\nG0 X0 Y0 Z0\nM98 <BARE>\nM30\n");
+    EXPECT_NEAR(feed_mm(read(files, "TWO.NC")), 7, 1e-9);
+    const auto refused = parse_program("<A>\nG21 G0 X0 Y0 Z0\nM98<B.NC>\n", "A.NC", PathKind::gcode);
+    ASSERT_FALSE(refused.has_value());
+    EXPECT_NE(refused.error().text().find("A.NC:3:1: error: M98 calls <b.nc>"), std::string::npos)
+        << refused.error().text();
+}
+
 TEST(CalledPrograms, of_linuxcnc_lie_beside_by_the_name_of_their_sub) {
     MemorySource files;
     files.put("main.ngc", "G21 G90 M3 F100\nG0 X0 Y0 Z0\no<drill> call [20] [-10]\nM2\n");

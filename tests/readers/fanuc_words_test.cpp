@@ -157,6 +157,8 @@ TEST(FanucWords, of_fagor_mean_what_fagor_means) {
                 35 + 5 * kPi / 2 + 35 + 38 + 2 * std::sqrt(2.0) + 38, 1e-9);
     EXPECT_NEAR(feed_mm(read(kFagor + "G99 G81 X5 Z2 I-10 F50\nX9\nG80\nG44\n", OtherControl::fagor)), 24,
                 1e-12);
+    EXPECT_EQ(detect_other_control("%00021\nT1.1\nM6\nG81 G99 X50 Y0 Z2 I-57\n"), OtherControl::fagor);
+    EXPECT_NEAR(feed_mm(read(kFagor + "G96 S100\nG1 X7\n", OtherControl::fagor)), 7, 1e-12);
     const motion::Program mirrored = read(kFagor + "G11\nG1 X10 Y5\nG10\nX10\n", OtherControl::fagor);
     EXPECT_EQ(mirrored.moves.at(0).end.tip_mm, (Vec3{-10, 5, 5}));
     EXPECT_EQ(mirrored.moves.at(1).end.tip_mm, (Vec3{10, 5, 5}));
@@ -341,7 +343,8 @@ TEST(FanucWords, of_fadal_that_have_none_are_refused) {
 
 TEST(FanucWords, keep_the_lines_and_leave_other_programs_alone) {
     for (const char* text : {"O0001\nG0 X0\n", "G21\n#1=5\nG1 X#1\n", "N10 (P 5)\nG1 X0\n", "X=5\nR1=3\n",
-                             "G43 H1 Z5\nX0 Y0 E1\n", "G1 X5 Y5 E1\nG1 Z2\n", ""}) {
+                             "G43 H1 Z5\nX0 Y0 E1\n", "G81 X5 Z-9 R2 I3\n", "G83 Z-9 I3 J1 K1\n",
+                             "G84 Z-9 (BY I)\n", "G1 X5 Y5 E1\nG1 Z2\n", ""}) {
         EXPECT_FALSE(detect_other_control(text).has_value()) << text;
     }
     const std::string ugly = "VC1=\n((((\nN\nX=\nIF [\nCALL\n(IF\n(P1=\nG\n\xff\xfe\nVC99999999=1\n";

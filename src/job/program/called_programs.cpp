@@ -21,6 +21,10 @@ class NoMoves final : public readers::MoveSink {
     void take(const motion::Move&) override {}
 };
 
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
 std::string upper(std::string text) {
     for (char& c : text) {
         if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
@@ -39,8 +43,7 @@ std::string lower(std::string text) {
 std::vector<std::string> file_names(const std::string& name, readers::Dialect dialect,
                                     const std::string& extension) {
     std::vector<std::string> stems{name, upper(name), lower(name)};
-    const bool is_number =
-        !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+    const bool is_number = !name.empty() && std::ranges::all_of(name, is_digit);
     if (is_number) {
         const std::string four = std::string(name.size() < 4 ? 4 - name.size() : 0, '0') + name;
         for (const char* letter : {"O", "o", ""}) {
@@ -86,8 +89,10 @@ std::string behind(const std::string& name, std::string_view text, readers::Dial
     const bool is_sub = lower(std::string(body)).find("sub") != std::string::npos &&
                         lower(std::string(body)).find("endsub") != std::string::npos;
     if (is_sub) return std::string(body) + "\n";
-    const bool has_number = body[0] == 'O' || body[0] == 'o' || body[0] == ':';
-    return (has_number ? "" : "O" + name + "\n") + std::string(body) + "\nM99\n";
+    const bool has_name = body[0] == 'O' || body[0] == 'o' || body[0] == ':' || body[0] == '<';
+    const bool is_number = std::ranges::all_of(name, is_digit);
+    const std::string head = has_name ? "" : is_number ? "O" + name + "\n" : "<" + name + ">\n";
+    return head + std::string(body) + "\nM99\n";
 }
 
 int lines_of(std::string_view text) {

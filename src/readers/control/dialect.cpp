@@ -46,7 +46,7 @@ constexpr std::array kSigns{
     Sign{"G68.2", Dialect::fanuc},         Sign{"]GOTO", Dialect::fanuc},
     Sign{"G54.1P", Dialect::fanuc},        Sign{"]DO", Dialect::fanuc},
     Sign{"]THEN", Dialect::fanuc},         Sign{"G65P", Dialect::fanuc},
-    Sign{"#3000=", Dialect::fanuc},
+    Sign{"#3000=", Dialect::fanuc},        Sign{"M98<", Dialect::fanuc},
 };
 
 // Beginnings of a Siemens block, behind its number. A bracket behind a digit is taken for a comment.
@@ -88,9 +88,10 @@ std::string plain(std::string_view line) {
     return text;
 }
 
-// O1000, :1000; %O1000 where the first line holds both.
+// O1000, :1000, <NAME>; %O1000 where the first line holds both.
 bool is_program_number(std::string_view text) {
     if (text.starts_with("%O")) text.remove_prefix(1);
+    if (text.starts_with('<') && text.find('>') == text.size() - 1) return true;
     return text.size() > 1 && (text[0] == 'O' || text[0] == ':') &&
            std::all_of(text.begin() + 1, text.end(), is_digit);
 }

@@ -18,6 +18,16 @@ bool starts_with_digit(std::string_view text) {
     return !text.empty() && is_digit(text[0]);
 }
 
+// G81 G99 X5 Y0 Z2 I-20: a cycle with its depth as I, and no level R, which other controls need beside it.
+bool is_cycle_of_fagor(std::string_view block) {
+    const auto has = [&](char letter) { return block.find(letter) != std::string_view::npos; };
+    const std::size_t at = block.find("G8");
+    if (at == std::string_view::npos || at + 2 >= block.size()) return false;
+    const char kind = block[at + 2];
+    return kind >= '1' && kind <= '9' && kind != '3' && has('I') && has('Z') && !has('R') && !has('Q') &&
+           !has('J') && !has('(') && !has('#') && !has('=');
+}
+
 }  // namespace
 
 std::string_view name_of(OtherControl control) {
@@ -48,6 +58,7 @@ std::optional<OtherControl> detect_other_control(std::string_view bytes) {
             const bool is_assigned = rest.substr(end).starts_with('=');
             if (end > 0 && (begin != "(P" || is_assigned)) return OtherControl::fagor;
         }
+        if (is_cycle_of_fagor(block)) return OtherControl::fagor;
         if (block.starts_with("(RPTN") || block.starts_with("(GOTON")) return OtherControl::fagor;
         if (block.starts_with("VC") && block.find('=') != std::string_view::npos &&
             starts_with_digit(block.substr(2)))

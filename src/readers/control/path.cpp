@@ -85,7 +85,7 @@ Result<void> Path::append(const motion::Move& move) {
     if (moves >= options.max_moves)
         return refuse_more_moves(options.source_name, move.line, options.max_moves);
     ++moves;
-    if (move.kind == motion::MoveKind::feed) notes.cut();
+    if (move.kind == motion::MoveKind::feed) notes.cut(move);
     if (sink_ != nullptr) {
         sink_->take(move);
     } else {

@@ -82,6 +82,15 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
         is_local = true;
         number = std::exchange(from, nullptr);
     }
+    const std::string& name = command.block().called;
+    if (number == nullptr && !is_local && !name.empty()) {
+        const auto times = times_of(command.use('L'), line, "M98", output);
+        if (!times) return std::unexpected(times.error());
+        if (*times == 0) return true;
+        const auto called = flow.call_named_program(name, *times, line, code.column, nullptr, from);
+        if (!called) return std::unexpected(called.error());
+        return true;
+    }
     if (number == nullptr || !is_whole(*number, 1)) {
         return output.refuse(line, number == nullptr ? code.column : number->column,
                              code_text('M', code.tenths) + " needs the number of a " +
@@ -141,20 +150,24 @@ Result<MacroCall> read_macro_call(const Block& block, const Word& code, const Ou
                                  "use another letter");
         }
     }
-    if (number == nullptr || !is_whole(*number, 1)) {
+    const bool has_name = number == nullptr && !block.called.empty();
+    if (!has_name && (number == nullptr || !is_whole(*number, 1))) {
         return output.refuse(block.line, number == nullptr ? code.column : number->column,
                              name + " needs the number of a program as P",
                              "write " + name + " P1000 for O1000");
     }
     const auto times = times_of(times_word, block.line, name.c_str(), output);
     if (!times) return std::unexpected(times.error());
-    call.number = *number;
+    call.number = has_name ? code : *number;
+    if (has_name) call.name = block.called;
     call.times = *times;
     return call;
 }
 
 Result<void> call_macro(const MacroCall& call, int line, State& state, Flow& flow, Output& output) {
     if (call.times == 0) return {};
+    if (!call.name.empty())
+        return flow.call_named_program(call.name, call.times, line, call.number.column, &call.arguments);
     const auto left_out = leave_out(call.number, line, state, flow, output);
     if (!left_out) return std::unexpected(left_out.error());
     if (*left_out) return {};

@@ -16,7 +16,8 @@ Result<bool> call_or_return(Command& command, State& state, Flow& flow, Output& 
 
 // A call with variables of its own.
 struct MacroCall {
-    Word number;  // of the program
+    Word number;       // of the program
+    std::string name;  // G65<NAME>; empty: by its number
     std::int64_t times = 1;
     Flow::Arguments arguments{};
 };

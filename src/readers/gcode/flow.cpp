@@ -344,11 +344,29 @@ Result<void> Flow::call_program(const Word& number, std::int64_t times, int line
         options_.missing_programs->push_back(label);
         return {};
     }
+    return run_program(program, "O" + label, times, line, number.column, arguments, from);
+}
+
+Result<void> Flow::call_named_program(const std::string& name, std::int64_t times, int line, int column,
+                                      const Arguments* arguments, const Word* from) {
+    if (auto known = require_labels(); !known) return known;
+    const std::string label = "<" + name + ">";
+    const int program = labels_->find_program(label);
+    if (program < 0 && options_.missing_programs != nullptr) {
+        options_.missing_programs->push_back(name);
+        return {};
+    }
+    return run_program(program, label, times, line, column, arguments, from);
+}
+
+// `program`: its index; -1: none. `label`: as the program writes it.
+Result<void> Flow::run_program(int program, const std::string& label, std::int64_t times, int line,
+                               int column, const Arguments* arguments, const Word* from) {
     if (program < 0) {
-        return refuse(line, number.column,
-                      std::string(arguments == nullptr ? "M98" : "G65") + " calls O" + label +
+        return refuse(line, column,
+                      std::string(arguments == nullptr ? "M98" : "G65") + " calls " + label +
                           ", which this file does not have",
-                      "lay its file beside this one, or copy the subprogram behind the main program, from O" +
+                      "lay its file beside this one, or copy the subprogram behind the main program, from " +
                           label + " to M99");
     }
     Call call;
@@ -359,16 +377,16 @@ Result<void> Flow::call_program(const Word& number, std::int64_t times, int line
         const TextLines* place = places_->find_number(first, call.entry.number());
         if (place == nullptr) {
             return refuse(line, from->column,
-                          "M98 begins at N" + std::to_string(first) + ", which O" + label + " lacks",
+                          "M98 begins at N" + std::to_string(first) + ", which " + label + " lacks",
                           "write the number of one of its lines");
         }
         call.entry = *place;
     }
-    call.name = "O" + label;
+    call.name = label;
     call.times_left = times - 1;
     call.is_program = true;
     call.has_variables = arguments != nullptr;
-    if (auto pushed = push(std::move(call), line, number.column); !pushed) return pushed;
+    if (auto pushed = push(std::move(call), line, column); !pushed) return pushed;
     if (arguments != nullptr) parameters_.enter_macro(*arguments);
     return {};
 }

@@ -36,6 +36,9 @@ class Flow {
     using Arguments = std::array<double, kMacroParameters>;
     Result<void> call_program(const Word& number, std::int64_t times, int line,
                               const Arguments* arguments = nullptr, const Word* from = nullptr);
+    // M98<NAME>, G65<NAME>: the same for the program of that name, in lower case.
+    Result<void> call_named_program(const std::string& name, std::int64_t times, int line, int column,
+                                    const Arguments* arguments = nullptr, const Word* from = nullptr);
     // At the first program number: goes on in the main program of the text (Labels::main_program). Returns
     // its label and line where it is another one.
     struct MainProgram {
@@ -89,6 +92,8 @@ class Flow {
         TextLines at = TextLines({});  // its WHILE
     };
 
+    Result<void> run_program(int program, const std::string& label, std::int64_t times, int line, int column,
+                             const Arguments* arguments, const Word* from);
     Result<void> require_labels();
     Result<void> require_places();
     Result<void> jump(int number, int line, const TextLines& from);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/passing.hpp"
 
+#include <algorithm>
 #include <string>
 
 namespace tribo::readers::gcode {
@@ -46,6 +47,31 @@ void note_writing(const Block& block, Output& output) {
     if (block.has_deleted_rest && output.first(Note::deleted_rest)) {
         output.warn(block.line, "what follows '/' in a block is skipped, as with block delete switched on");
     }
+}
+
+bool pass_drawing_data(const Block& block, const State& state, Output& output) {
+    constexpr double first = 1900, box = 1902, last = 1999;
+    if (output.options.dialect != GcodeDialect::fanuc || block.words.empty()) return false;
+    const Word& code = block.words.front();
+    if (code.letter != 'G' || code.value < first || code.value > last) return false;
+    // B D H along X Y Z; I J K from a corner, and from the top, to the zero.
+    const auto mm = [&](char letter) {
+        const auto word = std::ranges::find(block.words, letter, &Word::letter);
+        return word == block.words.end() ? 0.0 : word->value * state.unit_mm;
+    };
+    const Vec3 size{mm('B'), mm('D'), mm('H')}, zero{mm('I'), mm('J'), mm('K')};
+    const bool is_stock = code.value == box && zero.z == 0 && size.x > 0 && size.y > 0 && size.z > 0;
+    if (is_stock) {
+        Box3 stock;
+        stock.include(Vec3{-zero.x, -zero.y, -size.z});
+        stock.include(Vec3{size.x - zero.x, size.y - zero.y, 0});
+        output.program.stock = motion::DeclaredStock{stock, block.line};
+    }
+    if (output.first(Note::drawing_data)) {
+        output.warn(block.line, is_stock ? "G1902 (the blank that MANUAL GUIDE i draws) is taken as the stock"
+                                         : "G1900 to G1999 tell MANUAL GUIDE i what to draw: left out");
+    }
+    return true;
 }
 
 void pass_unknown_codes(Command& command, Output& output) {

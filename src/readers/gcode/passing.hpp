@@ -18,6 +18,10 @@ void pass_unknown_codes(Command& command, Output& output);
 // rest. On a Fanuc control D holds for the compensation that comes.
 Result<void> pass_unused_words(Command& command, State& state, Output& output);
 
+// Passes over a block that tells MANUAL GUIDE i what to draw (G1900 to G1999, Fanuc): true if it is one. A
+// box (G1902) with its top at 0 is the stock.
+bool pass_drawing_data(const Block& block, const State& state, Output& output);
+
 // Passes over a line that begins with '$'; after $H only the machine knows where the tool is.
 void pass_setting(const Block& block, State& state, Output& output);
 

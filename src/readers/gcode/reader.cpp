@@ -145,6 +145,7 @@ class ProgramReader {
             return true;
         }
 
+        if (pass_drawing_data(block, state_, output_)) return true;
         auto command = Command::of(block, parameters_.is_fanuc());
         if (!command) {
             command.error().file = output_.options.source_name;

@@ -332,6 +332,8 @@ enum class Note {
     round_pocket,
     general_pocket,
     pocket_radius,
+    pocket_within_tool,
+    drawing_data,
     second_tool,
     program_of_machine,
     plane_centre,

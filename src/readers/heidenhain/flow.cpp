@@ -218,7 +218,8 @@ Result<void> Interpreter::leave_out_program(std::string name) {
     return {};
 }
 
-// CALL LBL 1 runs to LBL 0 and returns. CALL LBL 1 REP 2 repeats the lines from the label to here twice.
+// CALL LBL 1 runs to LBL 0 and returns, also as CALL LBL 1 REP (old controls). CALL LBL 1 REP 2 repeats the
+// lines from the label to here twice.
 Result<void> Interpreter::call(LineReader& in) {
     const int column = in.column();
     if (in.take("PGM") || in.take("SELECTED")) {
@@ -230,7 +231,7 @@ Result<void> Interpreter::call(LineReader& in) {
     }
     const auto label = in.label();
     if (!label) return std::unexpected(label.error());
-    if (in.take("REP")) {
+    if (in.take("REP") && !in.at_end()) {
         const auto count = in.number();
         if (!count) return std::unexpected(count.error());
         if (!*count || **count < 0 || **count > static_cast<double>(kMostRepeats)) {

@@ -285,9 +285,10 @@ Result<motion::Program> Interpreter::finish() {
         }
     }
     if (left_out_ > 0) {
-        path_.warn(left_out_line_, "moves that begin at a place that only the machine knows since line " +
-                                       std::to_string(left_out_since_) + " are left out (" +
-                                       std::to_string(left_out_) +
+        const std::string since =
+            left_out_since_ > 0 ? " since line " + std::to_string(left_out_since_) : std::string();
+        path_.warn(left_out_line_, "moves that begin at a place that only the machine knows" + since +
+                                       " are left out (" + std::to_string(left_out_) +
                                        " in all): write X, Y and Z with FMAX before them");
     }
     path_.finish_tools(unit_mm_);

@@ -130,9 +130,11 @@ void Interpreter::assume_start() {
 }
 
 // Returns false if the tool is where only the machine knows: the move of the words is left out then, and the
-// tool is at its end.
+// tool is at its end. So is it before the first move, if that states all coordinates.
 Result<bool> Interpreter::has_start(const Words& words, bool polar) {
-    if (!is_lost()) {
+    const bool states_all = words.axis[0] && words.axis[1] && words.axis[2];
+    const bool begins_anywhere = path_.moves == 0 && !path_.knows_tip() && states_all;
+    if (!is_lost() && !begins_anywhere) {
         assume_start();
         return true;
     }

@@ -79,7 +79,10 @@ void Interpreter::assume_start() {
 // Finds the end of the block in the frame. Returns false if the tool does not move, because only the machine
 // knows where it starts: its coordinates are known then as far as the block says them.
 Result<bool> Interpreter::find_target(const Words& words, Vec3& to) {
-    if (!is_rapid(words)) assume_start();
+    // Where the first move comes from, only the machine knows.
+    const bool states_all = words.linear[0] && words.linear[1] && words.linear[2];
+    const bool begins_anywhere = path_.moves == 0 && !incremental_ && states_all;
+    if (!is_rapid(words) && !begins_anywhere) assume_start();
     to = here();
     std::array<Known, 3> known{path_.known(0), path_.known(1), path_.known(2)};
     for (int k = 0; k < 3; ++k) {

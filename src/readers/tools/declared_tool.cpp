@@ -82,7 +82,8 @@ void set_kind(motion::DeclaredTool& tool, const ToolSizes& sizes, std::string& r
             tool.corner_mm = 0.5 * sizes.diameter_mm;
             break;
         case ToolShape::bull:
-            if (sizes.corner_mm == 0) add(remark, "no corner radius is stated: its corner is taken as sharp");
+            if (sizes.corner_mm == 0)
+                add(remark, "its corner radius is 0 or not stated: its corner is taken as sharp");
             break;
         case ToolShape::taper:
             set_taper(tool, sizes, remark);

@@ -125,6 +125,10 @@ class Tokenizer {
     void read_unit(TextToken& token) {
         std::size_t start = at_;
         while (start < text_.size() && is_blank(text_[start])) ++start;
+        // 4-INCH FACE MILL
+        const bool is_joined =
+            start == at_ && start + 1 < text_.size() && text_[start] == '-' && is_letter(text_[start + 1]);
+        if (is_joined) ++start;
         const bool is_quoted = !tokens_.empty() && tokens_.back().is_sign('"');
         // 63 "PLANFR63": the quote begins a name.
         const bool begins_name = start > at_ && start + 1 < text_.size() && is_letter(text_[start + 1]);
@@ -139,7 +143,9 @@ class Tokenizer {
         for (const Unit& unit : kUnits) {
             if (word != unit.word) continue;
             // "in" may be a word of the sentence: 6 in a row.
-            if (word == "IN" && start != at_ && end < text_.size() && is_blank(text_[end])) return;
+            const bool is_word = start != at_ && end < text_.size() && is_blank(text_[end]);
+            if (word == "IN" && token.is_integer && is_word) return;
+            if (is_joined && unit.mm != kInch) return;
             if (unit.mm > 0) token.unit_mm = unit.mm;
             token.is_angle = unit.mm == 0;
             at_ = end;

@@ -35,6 +35,13 @@ void add(ToolText& to, const ToolText& from) {
     if (to.flutes == 0) to.flutes = from.flutes;
 }
 
+// Without its own unit a diameter is in that of the program: the ratio may be an inch.
+bool are_same(const StatedLength& a, const StatedLength& b) {
+    const double ratio = a.mm(1) / b.mm(1);
+    const auto is_near = [&](double x) { return std::abs(ratio - x) <= kSameDiameter * x; };
+    return is_near(1) || (a.unit_mm != b.unit_mm && (is_near(25.4) || is_near(1 / 25.4)));
+}
+
 std::string size_text(const StatedLength& length) {
     return short_decimal(length.value) + (length.unit_mm == 1 ? " mm" : length.unit_mm > 1 ? " in" : "");
 }
@@ -66,24 +73,32 @@ ToolSizes sizes_of(const ToolText& text, double unit_mm) {
 void ToolNotes::read(std::string_view text, int line) {
     const auto at = static_cast<std::size_t>(std::max(line, 0));
     if (at >= lines_.size()) lines_.resize(at + 1);
-    // A line may hold several comments: the first one about a tool counts.
-    const bool goes_on = std::exchange(line_, line) == line && !is_taken_;
-    if (lines_[at] && !goes_on) return;
-    lines_[at] = true;
-    is_taken_ = take(text, line);
+    if (std::exchange(line_, line) != line) {
+        is_read_ = lines_[at];
+        is_taken_ = false;
+        lines_[at] = true;
+    }
+    if (is_read_) return;
+    for (const std::string_view part : texts_of_tools(text)) is_taken_ = take(part, line) || is_taken_;
 }
 
 // Returns true if the text is about a tool.
 bool ToolNotes::take(std::string_view text, int line) {
     Note note{read_tool_text(text), line};
     ToolText& tool = note.text;
-    if (largest_number_ && tool.number > largest_number_) tool.number.reset();
+    if (largest_number_ && tool.number > largest_number_) {
+        tool.number.reset();
+        tool.names_tool = true;
+    }
+    // A line may hold several comments: the first one about a tool counts, and those with numbers.
+    if (is_taken_ && !(tool.number && tool.diameter)) return false;
     if (tool.is_bare_size) {
         if (!std::exchange(expects_size_, false)) return false;
         tool.names_tool = true;
     }
     expects_size_ = tool.asks_for_size;
     if (keep_names(text, note)) return true;
+    if (tool.number && tool.diameter && tool.is_number_of_library) return take_of_library(note);
     if (tool.number && tool.diameter) {
         attach(*tool.number, note);
         if (window_tool_ == *tool.number) window_has_note_ = true;
@@ -103,9 +118,31 @@ bool ToolNotes::take(std::string_view text, int line) {
         }
         return true;
     }
-    if (pending_ && !(tool.diameter && pending_->text.diameter)) add(tool, pending_->text);
+    // Two shapes are two tools.
+    const bool is_other = pending_ && tool.shape != ToolShape::unstated &&
+                          pending_->text.shape != ToolShape::unstated && tool.shape != pending_->text.shape;
+    if (pending_ && !is_other && !(tool.diameter && pending_->text.diameter)) add(tool, pending_->text);
     pending_ = note;
     return true;
+}
+
+// CAM systems may number their tools otherwise than the program: a text right behind a change is about that
+// tool, and one alone before a change, too. Several at once are a list.
+bool ToolNotes::take_of_library(const Note& note) {
+    const Note* known = window_tool_ ? find(*window_tool_) : nullptr;
+    const bool is_same = known != nullptr && are_same(*known->text.diameter, *note.text.diameter);
+    if (window_tool_ && (!window_has_note_ || is_same || note.text.number == window_tool_)) {
+        put_library_texts();
+        attach(*window_tool_, note);
+        window_has_note_ = true;
+        return true;
+    }
+    if (of_library_.size() < kMostTools) of_library_.push_back(note);
+    return true;
+}
+
+void ToolNotes::put_library_texts() {
+    for (const Note& note : std::exchange(of_library_, {})) attach(*note.text.number, note);
 }
 
 // Keeps what the text says for the names in it. True if it is about a name in quotes and no number: no other
@@ -157,7 +194,10 @@ void ToolNotes::change(int tool) {
         window_tool_.reset();
         return;
     }
+    if (of_library_.size() == 1 && !index_.contains(tool)) of_library_[0].text.number = tool;
+    put_library_texts();
     window_tool_ = tool;
+    window_has_note_ = index_.contains(tool) && notes_[index_.at(tool)].second.text.is_number_of_library;
     has_changed_ = true;
     if (!pending_) return;
     if (pending_->text.describes_tool()) {
@@ -167,7 +207,15 @@ void ToolNotes::change(int tool) {
     pending_.reset();
 }
 
-void ToolNotes::cut() {
+void ToolNotes::cut(const motion::Move& move) {
+    constexpr double aside = 1e-6;  // mm
+    Use& use = uses_[move.tool];
+    if (!use.mills) {
+        const Vec3 way = move.end.tip_mm - move.start.tip_mm;
+        const bool is_straight = !move.arc && !move.quadratic && move.start.axis == move.end.axis;
+        const bool is_along = is_straight && length(cross(way, move.start.axis)) < aside;
+        (is_along ? use.drills : use.mills) = true;
+    }
     window_tool_.reset();
     if (std::exchange(is_empty_, false) && pending_ && pending_->text.describes_tool()) {
         attach(0, *pending_);
@@ -185,12 +233,7 @@ void ToolNotes::attach(int tool, const Note& note) {
         return;
     }
     Note& first = notes_[known->second].second;
-    const StatedLength &a = *first.text.diameter, &b = *note.text.diameter;
-    // Without its own unit a diameter is in that of the program: the ratio may be an inch.
-    const double ratio = a.mm(1) / b.mm(1);
-    const auto is_near = [&](double x) { return std::abs(ratio - x) <= kSameDiameter * x; };
-    const bool is_same = is_near(1) || (a.unit_mm != b.unit_mm && (is_near(25.4) || is_near(1 / 25.4)));
-    if (is_same) {
+    if (are_same(*first.text.diameter, *note.text.diameter)) {
         add(first.text, note.text);
     } else if ((note.text.number || !first.text.number) && conflicts_.size() < kMostConflicts) {
         conflicts_.push_back({tool, first, note});
@@ -237,17 +280,25 @@ std::optional<double> ToolNotes::stated_diameter_mm(int tool, double unit_of_pro
 std::vector<motion::DeclaredTool> ToolNotes::tools(double unit_of_program_mm, const std::string& source,
                                                    Warnings& warnings) const {
     std::vector<motion::DeclaredTool> tools;
-    const auto declare = [&](int number, const Note& note) {
+    const auto declare = [&](int number, Note note) {
         motion::DeclaredTool tool;
         std::string remark;
         tool.number = number;
         tool.line = note.line;
+        const auto use = uses_.find(number);
+        const bool drills = use != uses_.end() && use->second.drills && !use->second.mills;
+        if (drills && note.text.shape == ToolShape::unstated &&
+            !(note.text.corner && note.text.corner->value > 0)) {
+            note.text.shape = ToolShape::drill;
+            remark = "the tool only moves along its axis, and no shape is stated: it is taken as a drill";
+        }
         ToolSizes sizes = sizes_of(note.text, unit_of_program_mm);
         const bool has_unit = note.text.diameter->unit_mm > 0;
         if (!has_unit && sizes.diameter_mm > kLimits.cutter_diameter.range.max) {
             // Names of tools count millimetres in programs in inches too.
             sizes = sizes_of(note.text, 1);
-            remark = "the diameter is taken in mm: in the unit of the program no tool is so large";
+            remark += remark.empty() ? "" : "; ";
+            remark += "the diameter is taken in mm: in the unit of the program no tool is so large";
         }
         if (set_shape(tool, sizes, remark)) {
             if (!remark.empty() && warnings.size() < kMostWarnings)
@@ -258,7 +309,14 @@ std::vector<motion::DeclaredTool> ToolNotes::tools(double unit_of_program_mm, co
                                 "T" + std::to_string(number) + " is not taken from this text: " + remark});
         }
     };
-    for (const auto& [number, note] : notes_) declare(number, note);
+    std::set<int> numbers;
+    for (const auto& [number, note] : notes_) {
+        declare(number, note);
+        numbers.insert(number);
+    }
+    for (const Note& note : of_library_) {
+        if (numbers.insert(*note.text.number).second) declare(*note.text.number, note);
+    }
     if (!has_changed_ && pending_ && pending_->text.describes_tool() && !index_.contains(0))
         declare(0, *pending_);
     std::set<int> said;

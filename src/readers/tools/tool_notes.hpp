@@ -37,8 +37,9 @@ class ToolNotes {
     int line_of(int tool) const;
     // Another tool comes into the spindle; maybe under the number of the one before.
     void change(int tool);
-    // The tool in the spindle begins to cut: what is written from now on is about the next one.
-    void cut();
+    // The tool in the spindle moves at feed: what is written from now on is about the next one. Says also
+    // whether it does more than go up and down along its axis, as a drill does.
+    void cut(const motion::Move& move);
 
     // Returns the diameter for radius compensation, mm; none if no text states it, or if the text says that
     // the control corrects wear alone.
@@ -65,6 +66,8 @@ class ToolNotes {
         Note first, second;
     };
     bool take(std::string_view text, int line);
+    bool take_of_library(const Note& note);
+    void put_library_texts();
     void attach(int tool, const Note& note);
     bool keep_names(std::string_view text, const Note& note);
     const Note* find(int tool) const;
@@ -79,7 +82,14 @@ class ToolNotes {
     std::vector<Conflict> conflicts_;
     std::vector<bool> lines_;  // that were read
     int line_ = -1;            // the last one
+    bool is_read_ = false;     // it was read before, in a loop
     bool is_taken_ = false;    // for a text about a tool
+    // Texts with the number of a library that no tool was changed for so far.
+    std::vector<Note> of_library_;
+    struct Use {
+        bool drills = false, mills = false;
+    };
+    std::map<int, Use> uses_;
     std::optional<int> largest_number_;
     std::optional<Note> pending_;     // about the next tool
     std::optional<int> window_tool_;  // changed and has not cut yet

@@ -40,6 +40,9 @@ constexpr std::array kPhrases{
     Phrase{"GEWINDEFRAES", thread, true, Match::part},
     Phrase{"GEWINDEBOHR", tap, true, Match::part},
     Phrase{"TAP", tap, true},
+    Phrase{"TAPRH", tap, true},  // of the library of Mastercam
+    Phrase{"TAPLH", tap, true},
+    Phrase{"ROSQUEAMENTO", tap, true},
     Phrase{"TARAUD", tap, true},
     Phrase{"GWINTOWNIK", tap, true},
     Phrase{"METCHIK", tap, true},
@@ -128,6 +131,7 @@ constexpr std::array kPhrases{
     Phrase{"FORET", drill, true},
     Phrase{"BORR", drill, true, Match::part},
     Phrase{"BROCA", drill, true},
+    Phrase{"BROCACAO", drill, true},
     Phrase{"PUNTA ELICOIDALE", drill, true},
     Phrase{"WIERTLO", drill, true},
     Phrase{"SVERLO", drill, true},

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/limits.hpp"
+#include "readers/text/text_lines.hpp"
 #include "readers/tools/folded_text.hpp"
 #include "readers/tools/text_tokens.hpp"
 
@@ -42,6 +44,8 @@ constexpr std::array kBeforeNouns{"END"sv,    "FLAT"sv,    "BALL"sv, "BULL"sv, "
                                   "SQUARE"sv, "CARBIDE"sv, "HSS"sv,  "VHM"sv,  "CHAMFER"sv,
                                   "SPOT"sv,   "ROUGH"sv,   "UNC"sv,  "UNF"sv};
 constexpr std::array kOffsetWords{"COMP"sv, "COMPENSATION"sv, "OFFSET"sv, "REGISTER"sv, "KORREKTUR"sv};
+// Nouns of tools that are verbs, too.
+constexpr std::array kWork{"DRILL"sv, "MILL"sv, "TAP"sv, "TURN"sv, "PROBE"sv, "COUNTERBORE"sv};
 constexpr int kMostFlutesInText = 24;
 // Whole numbers beside a noun that are sizes: ENDMILL 12, but ENDMILL 2 may be the second one.
 constexpr double kLeastWholeMm = 3, kLargestWholeMm = 160;
@@ -54,10 +58,30 @@ bool is_one_of(Words words, const TextToken& token) {
            std::ranges::any_of(words, [&](std::string_view word) { return token.text == word; });
 }
 
+// DRILL_D8_5, MILL_D6_R0_5: names of tools may not hold a point. The number behind a size of a mill may be
+// that of its teeth.
+std::string with_points(std::string text) {
+    const ToolShape shape = shape_in(text).shape;
+    const bool is_drill = shape == ToolShape::drill || shape == ToolShape::reamer ||
+                          shape == ToolShape::tap || shape == ToolShape::spot_drill ||
+                          shape == ToolShape::centre_drill;
+    for (std::size_t at = text.find('_'); at != std::string::npos; at = text.find('_', at + 1)) {
+        std::size_t begin = at, end = at + 1;
+        while (begin > 0 && is_digit(text[begin - 1])) --begin;
+        while (end < text.size() && is_digit(text[end])) ++end;
+        const bool is_between = begin < at && at - begin <= 2 && end > at + 1 && end - at <= 3;
+        const bool goes_on = end < text.size() && is_letter(text[end]);
+        if (is_between && !goes_on && (is_drill || text.substr(begin, at - begin) == "0")) text[at] = '.';
+    }
+    return text;
+}
+
 class TextReader {
   public:
     TextReader(std::string_view text, bool is_name)
-        : text_(folded(text)), tokens_(tokens_of(text_)), is_name_(is_name) {}
+        : text_(is_name ? with_points(folded(text)) : folded(text)),
+          tokens_(tokens_of(text_)),
+          is_name_(is_name) {}
 
     ToolText read() {
         if (read_cut_viewer()) return tool_;
@@ -70,7 +94,7 @@ class TextReader {
         const ShapeWords shape = shape_in(text_);
         tool_.shape = shape.shape;
         tool_.names_tool = shape.names_tool;
-        if (ends_with_end_mill()) {
+        if (is_about_end_mill()) {
             tool_.names_tool = true;
             if (tool_.shape == ToolShape::unstated) tool_.shape = ToolShape::flat;
         }
@@ -85,9 +109,12 @@ class TextReader {
         return i < tokens_.size() ? tokens_[i] : none;
     }
     bool is_end(std::size_t i) const { return i >= tokens_.size(); }
+    static bool is_fraction(const TextToken& t) { return t.is_number() && !t.is_integer && !t.is_angle; }
 
-    // 1/2 EM, 10MM 4FL EM: an end mill, where a size stands first. Elsewhere EM is a word of Portuguese.
-    bool ends_with_end_mill() const {
+    // 1/2 EM, 10MM 4FL EM, EM .5: an end mill, where a size stands there. Elsewhere EM is a word of
+    // Portuguese.
+    bool is_about_end_mill() const {
+        if (tokens_.size() == 2 && tokens_[0].is_word("EM") && is_fraction(tokens_[1])) return true;
         if (tokens_.size() < 2 || !tokens_.back().is_word("EM")) return false;
         const std::size_t first = tokens_[0].is_word("T") && token(1).is_glued ? 2 : 0;
         return token(first).is_number() || (token(first).is_sign('-') && token(first + 1).is_number());
@@ -120,6 +147,7 @@ class TextReader {
         const TextToken& t = token(i);
         if (t.kind == TextToken::Kind::word) return take_word(i);
         if (t.is_number()) return take_number(i);
+        if (t.is_sign('#') && tool_.shape == ToolShape::tap && set_numbered_thread(i + 1)) return 2;
         if (i == 0 && t.is_sign('#') && token(1).is_count()) {
             // #14 [.182"] DRILL, #7 DRILL: the number of a wire gauge.
             const bool is_gauge = token(2).is_sign('[') || token(2).is_sign('(') || token(2).text == "DRILL";
@@ -127,6 +155,20 @@ class TextReader {
             return 2;
         }
         return 1;
+    }
+
+    // #10-24, NO. 10-24: a thread of 0.060 inches and 0.013 for each number (ASME B1.1).
+    bool set_numbered_thread(std::size_t i) {
+        constexpr double largest = 14;
+        const TextToken& t = token(i);
+        const bool is_thread = t.is_count() && t.value <= largest && token(i + 1).is_sign('-') &&
+                               token(i + 2).is_count() && !is_one_of(kOtherWords, token(i + 1));
+        if (!is_thread) return false;
+        TextToken size = t;
+        size.value = (60 + 13 * t.value) / 1000;
+        size.unit_mm = 25.4;
+        set_diameter(size, Plainness::size);
+        return true;
     }
 
     void set_number(const TextToken& number) {
@@ -158,6 +200,8 @@ class TextReader {
             if (is_d && token(i + 1).is_sign('=') && tool_.number) tool_.is_for_compensation = true;
             return at - i + 1;
         }
+        const bool is_thread_number = tool_.shape == ToolShape::tap && t.text == "NO" && has_number;
+        if (is_thread_number && set_numbered_thread(at)) return at - i + 1;
         if (t.text == "MM" && next.is_count() && next.is_glued) {  // MM10
             TextToken size = next;
             size.unit_mm = 1;
@@ -212,6 +256,7 @@ class TextReader {
         const TextToken& number = token(at);
         const bool counts = is_one_of(kFluteWords, token(at + 1)) || token(at + 1).is_sign('/');
         if (!number.is_count() || counts) return 1;
+        tool_.is_number_of_library = !tool_.number && token(k + 1).is_sign('-');
         set_number(number);
         return at - i + 1;
     }
@@ -258,6 +303,12 @@ class TextReader {
             set_flutes(t.value);
             return next - i + 1;
         }
+        // 10MM 2F EM
+        const bool is_letter_f = token(i + 1).is_word("F") && token(i + 1).is_glued;
+        if (t.is_count() && is_letter_f && tool_.names_tool && !token(i + 2).is_number()) {
+            set_flutes(t.value);
+            return 2;
+        }
         // 135 POINT ANGLE, 90ST (Polish)
         const bool is_point =
             (token(i + 1).is_word("POINT") || token(i + 1).is_word("TIP")) && token(i + 2).is_word("ANGLE");
@@ -293,7 +344,7 @@ class TextReader {
             return t.is_sign('_') || t.is_sign('-') || t.is_sign(':');
         };
         const auto is_noun = [](const TextToken& t) {
-            return t.kind == TextToken::Kind::word && is_noun_of_tool(t.text);
+            return t.kind == TextToken::Kind::word && (t.text == "EM" || is_noun_of_tool(t.text));
         };
         const TextToken& number = token(i);
         const std::size_t before = i > 1 && is_joint(token(i - 1)) ? i - 2 : i - 1;
@@ -301,9 +352,10 @@ class TextReader {
         const bool follows = i > 0 && is_noun(token(before));
         const bool leads = is_noun(token(after)) || (!number.is_integer && leads_to_noun(after));
         // HOLE-CENTERS-T3-4 - DRILL is the name of an operation: a tool's text begins with its number.
-        // .125 FLAT END MILL begins with its size.
-        const bool is_about_it =
-            is_name_ || (tool_.number && number_at_ <= 1) || (i == 0 && !number.is_integer);
+        // .125 FLAT END MILL, REAMER .250; but DRILL .5 may be what is done, and how deep.
+        const bool names_it = i > 0 && before == 0 && is_end(i + 1) && !is_one_of(kWork, token(0));
+        const bool is_alone = !number.is_integer && (i == 0 || names_it);
+        const bool is_about_it = is_name_ || (tool_.number && number_at_ <= 1) || is_alone;
         if (!is_about_it || !(follows || leads)) return;
         if (!number.is_integer) {
             set_diameter(number, Plainness::size);
@@ -377,6 +429,28 @@ class TextReader {
         return true;
     }
 
+    // G1/4, NPT 1/8: a thread of pipes is wider than its name says (ISO 228-1; ASME B1.20.1).
+    void widen_pipe_thread() {
+        struct Pipe {
+            double inch, parallel_mm, taper_mm;
+        };
+        constexpr std::array pipes{Pipe{0.125, 9.728, 10.287},  Pipe{0.25, 13.157, 13.716},
+                                   Pipe{0.375, 16.662, 17.145}, Pipe{0.5, 20.955, 21.336},
+                                   Pipe{0.75, 26.441, 26.670},  Pipe{1, 33.249, 33.401}};
+        constexpr std::array parallel{"G"sv, "R"sv, "RP"sv, "BSP"sv, "BSPP"sv};
+        constexpr std::array taper{"NPT"sv, "NPTF"sv, "BSPT"sv, "RC"sv};
+        const auto has = [&](Words words) {
+            return std::ranges::any_of(tokens_, [&](const TextToken& t) { return is_one_of(words, t); });
+        };
+        const bool is_taper = has(taper);
+        if (!tool_.diameter || (!is_taper && !has(parallel))) return;
+        for (const Pipe& pipe : pipes) {
+            const bool is_it =
+                tool_.diameter->value == pipe.inch && (tool_.diameter->unit_mm == 25.4 || pipe.inch == 1);
+            if (is_it) tool_.diameter = StatedLength{is_taper ? pipe.taper_mm : pipe.parallel_mm, 1};
+        }
+    }
+
     void finish() {
         if (text_.find("WEAR COMP") != std::string::npos) tool_.is_for_compensation = false;
         if (!tool_.diameter) tool_.asks_for_size = is_about_tool_ && text_.find("SIZE") != std::string::npos;
@@ -397,6 +471,7 @@ class TextReader {
             set_angle(tool_.corner->value);
             tool_.corner.reset();
         }
+        if (tool_.shape == ToolShape::tap && plainness_ == Plainness::size) widen_pipe_thread();
         if (tool_.flutes == 0 && (tool_.names_tool || plainness_ == Plainness::name))
             tool_.flutes = lettered_flutes_;
         const bool says_tool = (is_about_tool_ && (has_diameter_key_ || plainness_ == Plainness::key)) ||
@@ -423,6 +498,38 @@ class TextReader {
 };
 
 }  // namespace
+
+std::vector<std::string_view> texts_of_tools(std::string_view text) {
+    std::vector<std::size_t> begins, ends;  // of each number that begins an item, from its T
+    std::set<std::string_view> numbers;
+    for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+        if (to_upper(text[at]) != 'T' || !is_digit(text[at + 1])) continue;
+        std::size_t before = at;
+        while (before > 0 && is_blank(text[before - 1])) --before;
+        const bool begins_item = before == 0 || before < at ||
+                                 std::string_view(",;/|:(+&").find(text[before - 1]) != std::string::npos;
+        std::size_t end = at + 1;
+        while (end < text.size() && is_digit(text[end])) ++end;
+        if (!begins_item || (end < text.size() && is_letter(text[end]))) continue;
+        begins.push_back(at);
+        ends.push_back(end);
+        numbers.insert(text.substr(at + 1, end - at - 1));
+    }
+    if (numbers.size() < 2) return {text};
+    // 10MM MILL T1, 6MM DRILL T2: the number ends its item.
+    const bool ends_item = std::ranges::any_of(text.substr(0, begins[0]), is_digit);
+    std::vector<std::string_view> parts;
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+        const bool is_first = i == 0, is_last = i + 1 == begins.size();
+        const std::size_t begin = !ends_item ? begins[i] : is_first ? 0 : ends[i - 1];
+        const std::size_t end = ends_item ? ends[i] : is_last ? text.size() : begins[i + 1];
+        std::string_view part = text.substr(begin, end - begin);
+        while (!part.empty() && std::string_view(" ,;/|-").find(part.back()) != std::string_view::npos)
+            part.remove_suffix(1);
+        parts.push_back(part);
+    }
+    return parts;
+}
 
 ToolText read_tool_text(std::string_view text, bool is_name) {
     constexpr std::size_t longest = 400;

@@ -119,6 +119,10 @@ TEST(GcodeRoundPocket, goes_out_by_half_circles_and_back_to_the_middle) {
     // By any text about the tool; the first circle is the tool's own: one circle of radius 1 of its centre.
     const motion::Program own = fanuc("(T2 = 4 MM END MILL)\nT2 M6\nG13 D2 I2 K3 Q2 Z-2\n");
     EXPECT_NEAR(feed_mm(own), 2 + kPi + 2 * kPi, 1e-9);
+    // A first circle within the tool, as Haas's own workbook has it: the next one is that of radius 1.
+    const motion::Program within = fanuc("(T2 = 4 MM END MILL)\nT2 M6\nG13 D2 I1 K3 Q1 Z-2\n");
+    EXPECT_NEAR(feed_mm(within), 2 + kPi + 2 * kPi, 1e-9);
+    EXPECT_TRUE(warns_of(within, 5, "I is smaller than the tool's radius"));
 }
 
 TEST(GcodeCylinder, rolls_lines_and_arcs_about_its_axis) {

@@ -114,6 +114,21 @@ TEST(Heidenhain, RunsLabelsRepeatsAndJumps) {
     expect_near(program.moves[program.moves.size() - 2].end.tip_mm, {3, 10, 14});
 }
 
+TEST(Heidenhain, CallsOnceByRepWithoutANumber) {
+    const motion::Program program =
+        conversational(after_start("3 CALL LBL 1 REP\n4 STOP M30\n5 LBL 1\n6 L IX+4 F100\n7 LBL 0\n"));
+    EXPECT_NEAR(feed_mm(program), 4, 1e-12);
+}
+
+TEST(Heidenhain, LeavesOutAFirstMoveFromAnywhere) {
+    const motion::Program program = conversational(
+        "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S5000\n2 L X-100 Y-100 Z150 R0 F13500 M3\n3 L Z+2 R0 F1000\n"
+        "4 END PGM A MM\n");
+    ASSERT_EQ(program.moves.size(), 1u);
+    expect_near(program.moves[0].start.tip_mm, {-100, -100, 150});
+    EXPECT_TRUE(warns_of(program, 3, "are left out (1 in all)"));
+}
+
 TEST(Heidenhain, DrillsWithCycle200) {
     const motion::Program program = conversational(after_start(R"(3 CYCL DEF 200 DRILLING ~
     Q200=2    ;SET-UP CLEARANCE ~

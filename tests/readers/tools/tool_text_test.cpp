@@ -114,6 +114,21 @@ const Form kForms[] = {
     {"1/2 EM", kNoNumber, flat, 0.5, 25.4, 0, 0, 0},
     {"T4 10MM 3 FL EM", 4, flat, 10, 1, 0, 0, 3},
     {"3/8 BALL EM", kNoNumber, ball, 0.375, 25.4, 0, 0, 0},
+    {"EM .5", kNoNumber, flat, 0.5, 0, 0, 0, 0},
+    {"REAMER .250", kNoNumber, reamer, 0.25, 0, 0, 0, 0},
+    {"T5 4-INCH FACE MILL", 5, face, 4, 25.4, 0, 0, 0},
+    {"2.5 IN FACEMILL", kNoNumber, face, 2.5, 25.4, 0, 0, 0},
+    {"T2 10mm 2F EM", 2, flat, 10, 1, 0, 0, 2},
+    {"T2 BROCA\xC3\x87\xC3\x83O \xC3\x98"
+     "5mm",
+     2, drill, 5, 1, 0, 0, 0},
+    // Threads: by number, of pipes, of the library of Mastercam
+    {"1/4-20 TAPRH|TOOL - 2|DIA. OFF. - 2|LEN. - 2|TOOL DIA. - .25", 2, tap, 0.25, 0, 0, 0, 0},
+    {"NO. 10-24 TAPRH", kNoNumber, tap, 0.19, 25.4, 0, 0, 0},
+    {"T3 #8-32 TAP", 3, tap, 0.164, 25.4, 0, 0, 0},
+    {"T1 G1/4 TAP", 1, tap, 13.157, 1, 0, 0, 0},
+    {"T1 NPT 1/8 TAP", 1, tap, 10.287, 1, 0, 0, 0},
+    {"T4 ROSQUEAMENTO M6x1.0", 4, tap, 6, 1, 0, 0, 0},
 };
 
 TEST(ToolText, reads_the_forms_of_cam_systems_and_people) {
@@ -171,15 +186,31 @@ TEST(ToolText, takes_a_bare_number_beside_the_noun_in_the_name_of_a_tool) {
         double diameter;
     } cases[] = {{"BOHRER_6.8", drill, 6.8},    {"FRAESER_12", flat, 12},
                  {"SCHAFTFRAESER_8", flat, 8},  {"8.5 SPIRALBOHRER", drill, 8.5},
-                 {"Frez_walcowy_12", flat, 12}, {"GEWINDEBOHRER_M8", tap, 8}};
+                 {"Frez_walcowy_12", flat, 12}, {"GEWINDEBOHRER_M8", tap, 8},
+                 {"DRILL_D8_5", drill, 8.5},    {"BOHRER_8_5", drill, 8.5},
+                 {"FRAESER_D8_4", flat, 8},     {"DRILL_D8_5XD", drill, 8}};
     for (const auto& c : cases) {
         const ToolText tool = read_tool_text(c.name, true);
         ASSERT_TRUE(tool.describes_tool()) << c.name;
         EXPECT_EQ(tool.shape, c.shape) << c.name;
         EXPECT_EQ(tool.diameter->value, c.diameter) << c.name;
     }
+    EXPECT_EQ(read_tool_text("FRAESER_D6_R0_5", true).corner->value, 0.5);
     for (const char* name : {"FRAESER_1", "SCHRUPPER", "TASTER_6", "MILL_2_OF_8"})
         EXPECT_FALSE(read_tool_text(name, true).describes_tool()) << name;
+}
+
+motion::Move sideways(int tool = 0) {
+    motion::Move move;
+    move.tool = tool;
+    move.end.tip_mm = {1, 0, 0};
+    return move;
+}
+motion::Move down(int tool) {
+    motion::Move move;
+    move.tool = tool;
+    move.end.tip_mm = {0, 0, -3};
+    return move;
 }
 
 motion::DeclaredTool only_tool(ToolNotes& notes, double unit_mm = 1) {
@@ -198,11 +229,11 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     ToolNotes after;  // the change, then the text, then the first cut
     after.change(2);
     after.read("6 mm end mill", 3);
-    after.cut();
+    after.cut(sideways());
     EXPECT_EQ(only_tool(after).number, 2);
     ToolNotes late;  // the tool has cut: the text is about the next one
     late.change(2);
-    late.cut();
+    late.cut(sideways());
     late.read("6 mm end mill", 9);
     late.change(5);
     EXPECT_EQ(only_tool(late).number, 5);
@@ -210,14 +241,14 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     twice.read("Tool Number:1", 3);
     twice.read("6 mm dia. slot drill", 3);
     twice.change(1);
-    twice.cut();
+    twice.cut(sideways());
     twice.read("Tool Number:1", 3);
     twice.read("6 mm dia. slot drill", 3);
     twice.change(2);
     EXPECT_EQ(only_tool(twice).number, 1);
     ToolNotes alone;  // a program without T
     alone.read("6 mm end mill", 1);
-    alone.cut();
+    alone.cut(sideways());
     EXPECT_EQ(only_tool(alone).number, 0);
     ToolNotes emptied;  // T0 takes the tool out: the text on the line of the next change is that tool's
     emptied.change(0);
@@ -227,7 +258,7 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     ToolNotes zero;  // T0 cuts: it is a tool of that number
     zero.change(0);
     zero.read("6 mm end mill", 2);
-    zero.cut();
+    zero.cut(sideways());
     zero.change(3);
     EXPECT_EQ(only_tool(zero).number, 0);
     ToolNotes probed;  // what a move does is no tool
@@ -235,6 +266,93 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     probed.change(1);
     probed.read("Change Tool: Diameter: 6 mm", 3);
     EXPECT_EQ(only_tool(probed).diameter_mm, 6);
+}
+
+TEST(ToolNotes, give_each_tool_of_a_list_in_one_line_its_part) {
+    const std::vector<std::vector<const char*>> lines{
+        {"T1 = 10 MM 3-FLUTE END MILL, T2 = 6.6 MM DRILL"},
+        {"TOOLS: T1 D10 ENDMILL, T2 D6.6 DRILL"},
+        {"T1 10MM ENDMILL / T2 6.6 DRILL"},
+        {"T1: FRESA D10 - T2: BROCA D6.6"},
+        {"10MM END MILL T1, 6.6MM DRILL T2"},
+        {"T01 - 10MM END MILL", "T02 - 6.6MM DRILL"},
+    };
+    for (const auto& line : lines) {
+        SCOPED_TRACE(line[0]);
+        ToolNotes notes;
+        for (int run = 0; run < 2; ++run)
+            for (const char* comment : line) notes.read(comment, 3);
+        Warnings warnings;
+        const auto tools = notes.tools(1, "p.nc", warnings);
+        ASSERT_EQ(tools.size(), 2u);
+        EXPECT_EQ(tools[0].number, 1);
+        EXPECT_EQ(tools[0].diameter_mm, 10);
+        EXPECT_NE(tools[0].kind, "drill");
+        EXPECT_EQ(tools[1].number, 2);
+        EXPECT_EQ(tools[1].diameter_mm, 6.6);
+        EXPECT_EQ(tools[1].kind, "drill");
+    }
+}
+
+TEST(ToolNotes, take_the_number_of_a_library_for_that_of_the_program_where_nothing_else_says_so) {
+    const std::string five = "7.2 DRILL TOOL - 5 DIA. OFF. - 5 LEN. - 5 DIA. - 7.2",
+                      seven = "16. FLAT ENDMILL TOOL - 7 DIA. OFF. - 7 LEN. - 7 DIA. - 16.";
+    const auto diameter_of = [](ToolNotes& notes, int number) {
+        Warnings warnings;
+        for (const auto& tool : notes.tools(1, "p.nc", warnings))
+            if (tool.number == number) return tool.diameter_mm;
+        return 0.0;
+    };
+    ToolNotes behind;  // each text behind the change of another number
+    behind.change(7);
+    behind.read(five, 3);
+    behind.cut(sideways(7));
+    behind.change(5);
+    behind.read(seven, 9);
+    EXPECT_EQ(diameter_of(behind, 7), 7.2);
+    EXPECT_EQ(diameter_of(behind, 5), 16);
+    ToolNotes named;  // a text without a number says the same
+    named.read("16 mm end mill", 2);
+    named.change(4);
+    named.read(seven, 4);
+    named.cut(sideways(4));
+    named.read("7.2 mm drill", 8);
+    named.change(25);
+    named.read(five, 9);
+    EXPECT_EQ(diameter_of(named, 4), 16);
+    EXPECT_EQ(diameter_of(named, 25), 7.2);
+    EXPECT_EQ(diameter_of(named, 7), 0);
+    ToolNotes before;
+    before.read(seven, 3);
+    before.change(4);
+    EXPECT_EQ(diameter_of(before, 4), 16);
+    EXPECT_EQ(diameter_of(before, 7), 0);
+    ToolNotes list;  // at the head: each its own
+    list.read(five, 1);
+    list.read(seven, 2);
+    list.change(7);
+    list.cut(sideways(7));
+    list.change(5);
+    EXPECT_EQ(diameter_of(list, 7), 16);
+    EXPECT_EQ(diameter_of(list, 5), 7.2);
+    ToolNotes unused;
+    unused.read(five, 1);
+    EXPECT_EQ(diameter_of(unused, 5), 7.2);
+}
+
+TEST(ToolNotes, take_a_tool_without_a_shape_that_only_goes_down_for_a_drill) {
+    for (const bool mills : {false, true}) {
+        ToolNotes notes;
+        notes.read(" T2 : 3.175 ", 1);
+        notes.change(2);
+        notes.cut(down(2));
+        if (mills) notes.cut(sideways(2));
+        Warnings warnings;
+        const auto tools = notes.tools(1, "p.nc", warnings);
+        ASSERT_EQ(tools.size(), 1u);
+        EXPECT_EQ(tools[0].kind, mills ? "" : "drill");
+        EXPECT_EQ(warnings.size(), mills ? 0u : 1u);
+    }
 }
 
 TEST(ToolNotes, give_a_text_with_a_name_to_the_tool_of_that_name) {

@@ -89,9 +89,17 @@ class Pocket {
         if (step_ == 0) step_ = std::max(last_ - first_, 0.0);
         first_ -= radius;
         last_ -= radius;
-        // The first circle is the tool's own.
-        if (radius > 0 && std::abs(first_) <= kSameMm && last_ > kSameMm)
-            first_ = std::min(first_ + step_, last_);
+        // The first circle is the tool's own, or smaller.
+        const bool is_within_tool = radius > 0 && first_ <= kSameMm && last_ > kSameMm && step_ > 0;
+        if (is_within_tool) {
+            if (first_ < -kSameMm && output_.first(Note::pocket_within_tool)) {
+                output_.warn(command_.line(),
+                             name() +
+                                 ": I is smaller than the tool's radius, where a control may "
+                                 "stop: the first circle is the next one that is larger");
+            }
+            first_ = std::min(first_ + step_ * (std::floor(-first_ / step_) + 1), last_);
+        }
         const double rings = step_ > 0 ? (last_ - first_) / step_ : 0;
         if (!(first_ > kSameMm) || !(last_ >= first_) || !(rings + 1 <= kMostRings) ||
             !(passes_ >= 1 && passes_ * (rings + 1) <= kMostRings)) {

@@ -119,7 +119,7 @@ class Corner {
     // Hands out the move, or keeps it until the radius is certain.
     Result<void> give(const motion::Move& move) {
         if (!comp_.is_of_text) return hand_out(move, state_, output_);
-        if (move.kind == motion::MoveKind::feed) output_.notes.cut();
+        if (move.kind == motion::MoveKind::feed) output_.notes.cut(move);
         comp_.compensated.push_back(move);
         return {};
     }

@@ -185,6 +185,13 @@ Result<void> set_table(Command& command, State& state, Output& output, int colum
         }
         return {};
     }
+    if (kind != nullptr && kind->value >= 90 && kind->value <= 99 &&
+        output.options.dialect == GcodeDialect::fanuc) {
+        for (const char letter : {'P', 'R', 'X', 'Y', 'Z', 'I', 'J', 'K', 'Q'}) command.use(letter);
+        if (output.first(Note::drawing_data))
+            output.warn(command.line(), "G10 L90 and on tell the control what to draw: left out");
+        return {};
+    }
     if (kind != nullptr && (kind->value == 50 || kind->value == 52) &&
         output.options.dialect == GcodeDialect::fanuc) {
         state.enters_data = true;

@@ -36,7 +36,8 @@ constexpr Spelled kKeywords[] = {
 };
 
 Result<std::string> read_label(Cursor& cursor, const Parameters* parameters, bool& is_computed) {
-    const std::size_t start = cursor.at++;  // O, or ':'
+    const std::size_t start = cursor.at;
+    if (cursor.peek_after_blanks() != '<') ++cursor.at;  // behind O, or ':'
     std::string label;
     const char c = cursor.peek_after_blanks();
     if (c == '<') {

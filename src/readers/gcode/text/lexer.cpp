@@ -52,6 +52,12 @@ bool starts_o_word(const Cursor& cursor) {
     Cursor ahead = cursor;
     const char c = ahead.peek_after_blanks();
     if (to_upper(c) == 'O') return true;
+    if (c == '<') {  // <NAME>: a program of a Fanuc control
+        ahead.at = std::min(ahead.line.find('>', ahead.at), ahead.line.size());
+        if (ahead.at == ahead.line.size()) return false;
+        ++ahead.at;
+        return ahead.at_end() || ahead.peek() == '(';
+    }
     if (c != ':') return false;
     ++ahead.at;
     if (!is_digit(ahead.peek_after_blanks())) return false;
@@ -103,6 +109,7 @@ Result<bool> Lexer::next(Block& block) {
     block.deletable = block.has_nested_comment = block.has_open_comment = block.has_deleted_rest =
         block.has_print = false;
     block.setting = {};
+    block.called.clear();
     block.corner.reset();
     block.words.clear();
     block.assignments.clear();
@@ -157,6 +164,11 @@ Result<bool> Lexer::next(Block& block) {
             if (!ends) return std::unexpected(ends.error());
             if (*ends) return true;
             if (cursor_.at != start) continue;  // THEN: its statement follows
+        }
+        if (c == '<' && !is_first && parameters_.is_fanuc() && block.called.empty()) {
+            if (auto read = read_angled_name(cursor_, block.called); !read)
+                return std::unexpected(read.error());
+            continue;
         }
         if (c == ',' && !is_first) {
             ++cursor_.at;

@@ -49,6 +49,7 @@ struct Block {
     bool has_print = false;         // DPRNT and the like
     std::string_view setting;       // a line that begins with '$'
     std::string_view label;         // what follows a '%'
+    std::string called;             // NAME of M98<NAME> (Fanuc), in lower case
     MacroStatement macro;           // of a macro block
     std::optional<Word> corner;     // ,R or ,C: a corner at the end of the block
     std::vector<Word> words;        // in order, line numbers (N) left out
