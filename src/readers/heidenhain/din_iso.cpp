@@ -93,7 +93,7 @@ class Translator {
     std::string line() {
         const std::string block = block_of(lines_[at_]);
         if (in_cycle_) {
-            const bool goes_on = !ends(lines_[at_]);
+            const bool goes_on = cycle_goes_on();
             in_cycle_ = goes_on;
             return block + (goes_on ? " ~" : "");
         }
@@ -174,7 +174,7 @@ class Translator {
         const std::size_t end = std::min(block.find_first_not_of("0123456789", 1), block.size());
         const std::string number = block.substr(1, end - 1);
         if (number.size() == 3 && number[0] >= '2') {
-            const bool goes_on = ends_with_star_ && !ends(lines_[at_]);
+            const bool goes_on = ends_with_star_ && cycle_goes_on();
             in_cycle_ = goes_on;
             const std::size_t q = block.find(" Q", end);
             const std::string parameters = q == std::string::npos ? std::string() : block.substr(q);
@@ -324,6 +324,16 @@ class Translator {
         std::string text;
         for (const IsoWord& word : parts.words) text += std::string(" ") + word.letter;
         return text;
+    }
+
+    // A cycle ends with '*', which may be missing behind its last parameter, Q or P.
+    bool cycle_goes_on() const {
+        if (ends(lines_[at_])) return false;
+        for (std::size_t i = at_ + 1; i < lines_.size(); ++i) {
+            const std::string block = block_of(lines_[i]);
+            if (!block.empty()) return block[0] == 'Q' || block[0] == 'P';
+        }
+        return false;
     }
 
     // Radius of the next block if it is G26, else nothing.

@@ -40,6 +40,11 @@ bool is_passed(const Item& item, std::string_view own) {
     return is_normal || is_empty || std::ranges::find(kFeeds, item.name) != std::end(kFeeds);
 }
 
+// M128 F1000: the feed at which the rotary axes may follow, and not that of the path.
+bool is_feed_of_tip_control(const std::vector<Item>& items, std::size_t i) {
+    return i > 0 && items[i].name == "F" && items[i - 1].name == "M" && items[i - 1].value == 128;
+}
+
 }  // namespace
 
 // Sorts the items of a path function; `own` is its name, for messages. Words of free contours go to `free`.
@@ -58,7 +63,7 @@ Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_v
     }
     for (std::size_t i = 0; i + 1 < words.items.size(); ++i) {
         const Item &item = words.items[i], &next = words.items[i + 1];
-        if (next.name != "MAX" || item.value) continue;
+        if (next.name != "MAX" || item.value || is_feed_of_tip_control(words.items, i)) continue;
         if (item.name == "F") words.fast = true;
         if (item.name == "MB") words.retract = std::numeric_limits<double>::infinity();
     }
@@ -68,6 +73,8 @@ Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_v
 
 Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::string_view own, Words& words) {
     std::string_view name = item.name;
+    // LIN_Z of a circle: it rises on its way.
+    if (name.starts_with("LIN_") && own.starts_with('C')) name.remove_prefix(4);
     const bool incremental = name.size() >= 2 && name[0] == 'I';
     if (incremental) name.remove_prefix(1);
     const std::size_t axis = place_of(kAxes, name), rotary = place_of(kRotary, name);
@@ -142,6 +149,7 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
 Result<void> Interpreter::apply_feed(const Words& words) {
     for (std::size_t i = 0; i < words.items.size(); ++i) {
         const Item& item = words.items[i];
+        if (is_feed_of_tip_control(words.items, i)) continue;
         const bool automatic =
             item.name == "FAUTO" || (item.name == "F" && !item.value && i + 1 < words.items.size() &&
                                      words.items[i + 1].name == "AUTO");

@@ -78,6 +78,22 @@ Result<void> Interpreter::read_named_value(Cursor& in, const std::string& name, 
         }
         return {};
     }
+    // _CAMTOLERANCE=0.01: a variable that the control has.
+    if (name[0] == '_') {
+        const auto given = Formula(in, variables_, *this).value();
+        if (!given) return std::unexpected(given.error());
+        Variable variable;
+        variable.type = std::holds_alternative<double>(*given) ? Type::real : Type::text;
+        variable.values = {*given};
+        if (!variables_.define(name, std::move(variable)))
+            return in.refuse(at, "the variables hold more than a million values", "define smaller arrays");
+        if (passed_over_.insert(name).second) {
+            path_.warn(line_number(), name.substr(0, 31) +
+                                          " is not defined in the program: it is taken as a "
+                                          "variable of the control");
+        }
+        return {};
+    }
     const std::size_t begin = in.at;
     auto value = amount(in);
     if (!value && words.machine_place && name.size() == 1) {

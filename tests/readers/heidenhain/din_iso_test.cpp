@@ -71,6 +71,15 @@ TEST(DinIso, MovesAsTheConversationalProgramDoes) {
     }
 }
 
+TEST(DinIso, ReadsCyclesWithoutStars) {
+    const std::string cycle = "Q200=2\nQ201=-5\nQ206=100\nQ202=5\nQ203=0\nQ204=9\n";
+    const motion::Program program = conversational(
+        in_conversational_words("%P G71\nN10 G99 T1 L+0 R+5\nN20 T1 G17 S2000 F500\nN30 G00 G90 X0 Y0 Z9 M3\n"
+                                "N40 G200 DRILLING\n" +
+                                cycle + "N50 X10 M99\nN9999 % P G71 *\n"));
+    EXPECT_NEAR(feed_mm(program), 7, 1e-9);
+}
+
 TEST(DinIso, KeepsToolsStockAndLines) {
     const motion::Program program = conversational(in_conversational_words(
         "%P G71 *\nN10 G30 G17 X+0 Y+0 Z-20 *\nN20 G31 G90 X+100 Y+80 Z+0 *\nN30 G99 T3 L+0 R+4 "

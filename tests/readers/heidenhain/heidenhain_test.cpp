@@ -120,6 +120,27 @@ TEST(Heidenhain, CallsOnceByRepWithoutANumber) {
     EXPECT_NEAR(feed_mm(program), 4, 1e-12);
 }
 
+TEST(Heidenhain, TakesTheFeedBehindM128ForThatOfTheRotaryAxes) {
+    const motion::Program program =
+        conversational(after_start("3 L X+1 F300\n4 L M128 F5000\n5 L X+5\n6 L X+9 F200 M128 FQ8\n"));
+    ASSERT_GE(program.moves.size(), 3u);
+    const std::size_t last = program.moves.size() - 1;
+    EXPECT_EQ(program.moves[last - 1].feed_mm_per_min, 300);
+    EXPECT_EQ(program.moves[last].feed_mm_per_min, 200);
+}
+
+TEST(Heidenhain, CirclesRiseByTheirLinearPart) {
+    const std::pair<const char*, double> circles[] = {{"CC X+0 Y+10\nC X+10 Y+10 DR+ LIN_Z-6", 6},
+                                                      {"CR X+10 Y+10 R+10 LIN_Z-6 DR+", 6},
+                                                      {"CR X+10 Y+10 R+10 LIN_IZ-11 DR+", 11}};
+    for (const auto& [circle, rise] : circles) {
+        const motion::Program program =
+            conversational(after_start("3 L X+0 Y+0 F100\n4 L Z+0\n" + std::string(circle) + "\n"));
+        ASSERT_FALSE(program.moves.empty()) << circle;
+        EXPECT_NEAR(motion::path_length_mm(program.moves.back()), std::hypot(5 * kPi, rise), 1e-9) << circle;
+    }
+}
+
 TEST(Heidenhain, LeavesOutAFirstMoveFromAnywhere) {
     const motion::Program program = conversational(
         "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S5000\n2 L X-100 Y-100 Z150 R0 F13500 M3\n3 L Z+2 R0 F1000\n"

@@ -231,6 +231,12 @@ TEST(Siemens, LeadsSplinesThroughTheirPoints) {
     EXPECT_NEAR(feed_mm(siemens("F100\nASPLINE X0 Y0\nG0 Z50\n")), 0, 1e-9);
 }
 
+TEST(Siemens, TakesVariablesOfTheControlThatItSets) {
+    const motion::Program program = siemens("_CAMTOLERANCE=0.01\nF100 G1 X=_CAMTOLERANCE*500\n_NAME=\"A\"\n");
+    EXPECT_NEAR(feed_mm(program), 5, 1e-9);
+    EXPECT_TRUE(warns_of(program, 4, "_CAMTOLERANCE is not defined in the program"));
+}
+
 TEST(Siemens, TurnsFramesAlongTheTool) {
     const std::string leans = "TRAORI\nG0 X10 Y0 Z0 A3=3 B3=0 C3=4\n";  // x of the frame: 0.8, 0, -0.6
     const struct {
