@@ -264,6 +264,7 @@ Result<void> set_cutter(const Statement& statement, Settings& settings, Report& 
 }
 
 Result<void> set_tool_data(const Statement& statement, Settings& settings, Report& report) {
+    settings.is_nx = true;
     const auto& items = statement.items;
     const auto first =
         std::ranges::find_if(items, [](const Item& item) { return number_of(item.text).has_value(); });

@@ -37,6 +37,7 @@ struct Settings {
     int tool = 0;
     std::optional<motion::DeclaredTool> cutter;  // of the last CUTTER statement, without the tool number
     double diameter_mm = 0;                      // of the last CUTTER; 0: none so far
+    bool is_nx = false;                          // a CLSF of NX: it has TLDATA
 };
 
 // UNITS/MM, UNITS/INCHES, UNITS/CM and other spellings.

@@ -176,9 +176,6 @@ Result<void> Interpreter::polar_circle(LineReader& in) {
     const auto words = read_words(in, "CP");
     if (!words) return std::unexpected(words.error());
     if (words->direction == 0) return in.refuse(words->first_column, "CP without DR+ or DR-", "add it");
-    if (!words->polar_angle && !words->polar_turn) {
-        return in.refuse(words->first_column, "CP without an angle PA or IPA", "add it");
-    }
     const auto has = has_start(*words, true);
     if (!has) return std::unexpected(has.error());
     if (!*has) return {};
@@ -192,7 +189,14 @@ Result<void> Interpreter::polar_circle(LineReader& in) {
         return in.refuse(words->first_column, "the arc starts in its pole", "correct CC");
     }
     const int direction = turning(words->direction, pole_plane_);
-    double turn = words->polar_turn.value_or(0) * words->direction;
+    const bool has_angle = words->polar_angle || words->polar_turn;
+    double turn = has_angle ? words->polar_turn.value_or(0) * words->direction : 360;
+    // Whole and half turns end at the same place either way.
+    if (turn < 0 && std::fmod(turn, 180) == 0) {
+        turn = -turn;
+        if (path_.first(kOtherTurn))
+            path_.warn(line_.number, "IPA and DR turn different ways to the same place: DR counts");
+    }
     if (words->polar_angle) {
         const double start = math::atan2(from[axes[1]], from[axes[0]]) * math::kDegPerRad;
         const double stop = mirror_ == Vec3{1, 1, 1}

@@ -221,20 +221,22 @@ Result<void> Interpreter::read_parameters(LineReader& in, Cycle& cycle) {
             }
             cycle.q[q] = known->second;
         } else {
-            const bool scaled = contains(kLengths, q) || contains(kFeeds, q);
-            cycle.q[q] = *item.value * (scaled ? unit_mm_ : 1);
+            cycle.q[q] = *item.value * unit_of_parameter(q);
             parameters_.set(q, *item.value);
         }
     }
     return {};
 }
 
+double Interpreter::unit_of_parameter(int q) const {
+    return contains(kLengths, q) ? unit_mm_ : contains(kFeeds, q) ? feed_unit_mm() : 1;
+}
+
 // A cycle reads its parameters where it is called: Q201=-18 behind CYCL DEF changes the depth.
 void Interpreter::change_cycle(int parameter, double value) {
     const auto known = cycle_.q.find(parameter);
     if (cycle_.number < 200 || known == cycle_.q.end()) return;
-    const bool scaled = contains(kLengths, parameter) || contains(kFeeds, parameter);
-    known->second = value * (scaled ? unit_mm_ : 1);
+    known->second = value * unit_of_parameter(parameter);
 }
 
 Result<void> Interpreter::define_q_cycle(LineReader& in, int number) {
@@ -315,7 +317,8 @@ Result<void> Interpreter::define_old_cycle(LineReader& in, int number, int part)
                          "write its lines one after the other, from .0");
     }
     const int dwell = number == 1 ? 4 : 3;
-    cycle_.q[part] = **value * (part == dwell && number != 17 ? 1 : unit_mm_);
+    const bool is_dwell = part == dwell && number != 17, is_feed = part == dwell + 1 && number != 17;
+    cycle_.q[part] = **value * (is_dwell ? 1 : is_feed ? feed_unit_mm() : unit_mm_);
     return {};
 }
 

@@ -250,6 +250,14 @@ Result<void> Interpreter::execute_path(LineReader& in) {
         if (!words) return std::unexpected(words.error());
         return miscellaneous(*words);
     }
+    // Z+0 R0 F200: a move along axes, as the axis keys of old controls write it.
+    const auto character = [&](std::size_t at) {
+        return at < line_.text.size() ? to_upper(line_.text[at]) : ' ';
+    };
+    const std::size_t first = character(0) == 'I' ? 1 : 0;
+    const bool is_axis = std::string_view("XYZABCUVW").find(character(first)) != std::string_view::npos;
+    const char behind = character(first + 1);
+    if (is_axis && (behind == '+' || behind == '-' || behind == '.' || is_digit(behind))) return line(in, false);
     const std::size_t blank = line_.text.find_first_of(" \t");
     std::string word(line_.text.substr(0, std::min<std::size_t>(blank, 12)));
     for (char& c : word) {
@@ -265,7 +273,8 @@ Result<void> Interpreter::begin() {
     std::string text(line_.text);
     std::transform(text.begin(), text.end(), text.begin(), to_upper);
     if (text.ends_with("INCH") || text.ends_with(" IN")) {
-        unit_mm_ = path_.rotary_feed.degree_mm = mm_per(LengthUnit::inch);
+        unit_mm_ = mm_per(LengthUnit::inch);
+        path_.rotary_feed.degree_mm = feed_unit_mm();
     } else if (!text.ends_with("MM") && path_.first(kNoUnit)) {
         path_.warn(line_.number, "BEGIN PGM names no unit: millimetres are taken");
     }

@@ -61,6 +61,8 @@ enum Note {
     kProjection,
     kFreeChoice,
     kFreeCircle,
+    kOneAxisCompensation,
+    kOtherTurn,
 };
 
 // A feed for FMAX, and the least value of one that old programs write for it.
@@ -215,6 +217,7 @@ class Interpreter {
     // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp, thread_milling.cpp, faces.cpp)
     Result<void> define_cycle(LineReader& in);
     void change_cycle(int parameter, double value);
+    double unit_of_parameter(int q) const;
     Result<void> leave_out_cycle(int number);
     Result<void> take_preset(const std::string& block);
     Result<void> define_q_cycle(LineReader& in, int number);
@@ -319,6 +322,8 @@ class Interpreter {
     Parameters parameters_;
     std::map<int, double> general_;  // GLOBAL DEF: values for Q...=PREDEF
     double unit_mm_ = 1;
+    // Feeds count tenths of inches in programs in inches (iTNC 530, User's Manual: F, TOOL CALL, cycles).
+    double feed_unit_mm() const { return unit_mm_ == 1 ? 1 : unit_mm_ / 10; }
     std::optional<Vec3> blank_min_;
     double tool_feed_ = 0;         // of TOOL CALL, for F AUTO
     double tool_oversize_mm_ = 0;  // DR of TOOL CALL

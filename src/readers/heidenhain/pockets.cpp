@@ -47,7 +47,7 @@ Result<void> Interpreter::define_old_pocket(LineReader& in, int part) {
             cycle_.q[kAlongY] = 1;
             cycle_.q[part] = *item.value * unit_mm_;
         } else if (item.name == "F" && item.value) {
-            cycle_.q[kFeedOfPart + part] = *item.value * unit_mm_;
+            cycle_.q[kFeedOfPart + part] = *item.value * feed_unit_mm();
         } else if (item.value) {
             cycle_.q[part] = *item.value * unit_mm_;
         }

@@ -172,7 +172,7 @@ Result<void> Interpreter::call_tool(LineReader& in) {
             path_.spindle_rpm = *item.value;
             path_.spindle_stands = *item.value == 0;
         } else if (item.name == "F" && item.value) {
-            tool_feed_ = *item.value * unit_mm_;
+            tool_feed_ = *item.value * feed_unit_mm();
             if (tool_feed_ != 0) {
                 if (auto good = in.in_range(kLimits.feed, tool_feed_, item.column); !good) return good;
             }

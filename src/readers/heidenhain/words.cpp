@@ -40,9 +40,15 @@ bool is_passed(const Item& item, std::string_view own) {
     return is_normal || is_empty || std::ranges::find(kFeeds, item.name) != std::end(kFeeds);
 }
 
-// M128 F1000: the feed at which the rotary axes may follow, and not that of the path.
-bool is_feed_of_tip_control(const std::vector<Item>& items, std::size_t i) {
-    return i > 0 && items[i].name == "F" && items[i - 1].name == "M" && items[i - 1].value == 128;
+// M128 F1000, M103 F20, M140 MB50 F750: the feed of the rotary axes, a share of the feed, and the feed of the
+// retraction; not that of the path.
+bool is_of_function(const std::vector<Item>& items, std::size_t i) {
+    if (items[i].name != "F") return false;
+    std::size_t at = i;
+    while (at > 0 && (items[at - 1].name.starts_with("MB") || items[at - 1].name == "MAX")) --at;
+    if (at == 0 || items[at - 1].name != "M" || !items[at - 1].value) return false;
+    const double m = *items[at - 1].value;
+    return m == 140 || (at == i && (m == 128 || m == 103));
 }
 
 }  // namespace
@@ -63,7 +69,7 @@ Result<Interpreter::Words> Interpreter::read_words(LineReader& in, std::string_v
     }
     for (std::size_t i = 0; i + 1 < words.items.size(); ++i) {
         const Item &item = words.items[i], &next = words.items[i + 1];
-        if (next.name != "MAX" || item.value || is_feed_of_tip_control(words.items, i)) continue;
+        if (next.name != "MAX" || item.value || is_of_function(words.items, i)) continue;
         if (item.name == "F") words.fast = true;
         if (item.name == "MB") words.retract = std::numeric_limits<double>::infinity();
     }
@@ -117,9 +123,14 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         words.side = 0;
     } else if (item.name == "RL" || item.name == "RR") {
         words.side = item.name == "RL" ? 1 : -1;
+    } else if (item.name == "R" && !item.value && item.sign != 0) {
+        if (path_.first(kOneAxisCompensation)) {
+            path_.warn(item.line,
+                       "R+ and R- lengthen and shorten a move along one axis by the tool's radius: the programmed "
+                       "path is taken");
+        }
     } else if (item.name == "R") {
-        return in.refuse(item.column, "radius compensation in one axis (" + item.name + ") is not read",
-                         "write RL, RR or R0");
+        return in.refuse(item.column, "R with a number is no radius compensation", "write RL, RR or R0");
     } else if (item.name == "FMAX") {
         words.fast = true;
     } else if (item.name == "FT" || item.name == "FMAXT") {
@@ -149,7 +160,7 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
 Result<void> Interpreter::apply_feed(const Words& words) {
     for (std::size_t i = 0; i < words.items.size(); ++i) {
         const Item& item = words.items[i];
-        if (is_feed_of_tip_control(words.items, i)) continue;
+        if (is_of_function(words.items, i)) continue;
         const bool automatic =
             item.name == "FAUTO" || (item.name == "F" && !item.value && i + 1 < words.items.size() &&
                                      words.items[i + 1].name == "AUTO");
@@ -170,9 +181,10 @@ Result<void> Interpreter::apply_feed(const Words& words) {
 
 // The feed of F, FU (per turn) or FZ (per tooth), mm/min.
 Result<double> Interpreter::feed_of(const Item& item) {
-    double feed = *item.value * unit_mm_;
     const bool per_tooth = item.name == "FZ";
-    if (per_tooth || item.name == "FU" || feed_per_turn_) {
+    const bool is_per_minute = !per_tooth && item.name != "FU" && !feed_per_turn_;
+    double feed = *item.value * (is_per_minute ? feed_unit_mm() : unit_mm_);
+    if (!is_per_minute) {
         const int teeth = per_tooth ? path_.flutes() : 1;
         if (!(path_.spindle_rpm > 0) || teeth == 0) {
             if (path_.options.default_feed_mm_per_min > 0) {
@@ -278,7 +290,16 @@ Result<void> Interpreter::retract(const Words& words) {
         return {};
     }
     const Vec3 to = path_.tip() + *words.retract * path_.frame.direction_from_stock(path_.axis());
-    return go(!path_.feed_mm_per_min || words.fast, to, {}, path_.rotary_rad());
+    const auto before = path_.feed_mm_per_min;
+    for (std::size_t i = 0; i < words.items.size(); ++i) {
+        if (!words.items[i].value || !is_of_function(words.items, i)) continue;
+        const auto feed = feed_of(words.items[i]);
+        if (!feed) return std::unexpected(feed.error());
+        path_.feed_mm_per_min = *feed;
+    }
+    auto done = go(!path_.feed_mm_per_min || words.fast, to, {}, path_.rotary_rad());
+    path_.feed_mm_per_min = before;
+    return done;
 }
 
 }  // namespace tribo::readers::heidenhain

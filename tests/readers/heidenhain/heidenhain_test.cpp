@@ -37,7 +37,42 @@ TEST(Heidenhain, CountsInches) {
         conversational("0 BEGIN PGM P INCH\n1 L X+0 Y+0 Z+1 FMAX M3\n2 L X+1,5 F10\n3 END PGM P INCH\n");
     ASSERT_EQ(program.moves.size(), 1u);
     expect_near(program.moves[0].end.tip_mm, {38.1, 0, 25.4});
-    EXPECT_NEAR(program.moves[0].feed_mm_per_min, 254, 1e-12);
+    EXPECT_NEAR(program.moves[0].feed_mm_per_min, 25.4, 1e-12);  // F counts tenths of inches
+    // So do feeds of TOOL CALL and of cycles; a feed per turn does not.
+    const motion::Program others = conversational(
+        "0 BEGIN PGM P INCH\n1 TOOL CALL 1 Z S100 F200\n2 L X+0 Y+0 Z+1 FMAX M3\n3 L X+1\n4 L X+2 FU0.01\n"
+        "5 CYCL DEF 200 Q200=0.1 Q201=-0.5 Q206=150 Q202=1 Q203=0 Q204=0.5\n6 L X+3 FMAX M99\n7 END PGM P INCH\n");
+    std::vector<double> feeds;
+    for (const motion::Move& move : others.moves)
+        if (move.kind == motion::MoveKind::feed) feeds.push_back(move.feed_mm_per_min);
+    ASSERT_EQ(feeds.size(), 3u);
+    EXPECT_NEAR(feeds[0], 200 * 2.54, 1e-9);
+    EXPECT_NEAR(feeds[1], 0.01 * 25.4 * 100, 1e-9);
+    EXPECT_NEAR(feeds[2], 150 * 2.54, 1e-9);
+}
+
+TEST(Heidenhain, ReadsMovesAlongAxesWithoutL) {
+    const motion::Program program =
+        conversational(after_start("3 X+50 R+ F500\n4 IY-5\n5 Z-2 R0 F200\n6 B+0\n7 X+50\n"));
+    ASSERT_FALSE(program.moves.empty());
+    EXPECT_NEAR(feed_mm(program), 50 + 5 + 12, 1e-9);
+    EXPECT_TRUE(warns_of(program, 4, "R+ and R- lengthen"));
+    expect_near(program.moves.back().end.tip_mm, {50, -5, -2});
+}
+
+TEST(Heidenhain, TurnsByDrWhereIpaLeadsToTheSamePlace) {
+    const motion::Program program = conversational(
+        after_start("3 L X+10 F100\n4 CC X+0 Y+0\n5 CP IPA+360 IZ-4 DR-\n6 CP IPA+180 DR-\n7 CP DR+\n"));
+    ASSERT_GE(program.moves.size(), 3u);
+    const std::size_t last = program.moves.size() - 1;
+    EXPECT_NEAR(motion::path_length_mm(program.moves[last - 2]), std::hypot(20 * kPi, 4), 1e-9);
+    EXPECT_NEAR(program.moves[last - 2].arc->normal.z, -1, 1e-12);
+    EXPECT_NEAR(motion::path_length_mm(program.moves[last - 1]), 10 * kPi, 1e-9);
+    expect_near(program.moves[last - 1].end.tip_mm,
+                {-10, 0, program.moves[last - 2].end.tip_mm.z}, 1e-9);
+    EXPECT_NEAR(motion::path_length_mm(program.moves[last]), 20 * kPi, 1e-9);
+    EXPECT_NEAR(program.moves[last].arc->normal.z, 1, 1e-12);
+    EXPECT_TRUE(warns_of(program, 6, "DR counts") || warns_of(program, 7, "DR counts"));
 }
 
 TEST(Heidenhain, TurnsCirclesOfEveryKind) {
@@ -127,6 +162,15 @@ TEST(Heidenhain, TakesTheFeedBehindM128ForThatOfTheRotaryAxes) {
     const std::size_t last = program.moves.size() - 1;
     EXPECT_EQ(program.moves[last - 1].feed_mm_per_min, 300);
     EXPECT_EQ(program.moves[last].feed_mm_per_min, 200);
+}
+
+TEST(Heidenhain, TakesTheFeedsOfM140AndM103ForTheirOwn) {
+    const motion::Program program = conversational(after_start(
+        "3 L Z+0 F300\n4 L X+0 Y+38.5 F125 M140 MB50 F750\n5 L Z+0\n6 L X+1 F500 M103 F20\n7 L X+2\n"));
+    std::vector<double> feeds;
+    for (const motion::Move& move : program.moves)
+        if (move.kind == motion::MoveKind::feed) feeds.push_back(move.feed_mm_per_min);
+    EXPECT_EQ(feeds, (std::vector<double>{300, 125, 750, 125, 500, 500}));
 }
 
 TEST(Heidenhain, CirclesRiseByTheirLinearPart) {
@@ -335,7 +379,7 @@ TEST(Heidenhain, RefusesWithPlaceCauseAndRemedy) {
         const char* message;
     } cases[] = {
         {"3 L X+10\n", ""},
-        {"3 L X+10 R+ F100\n", "p.h:4:10: error: radius compensation in one axis (R) is not read"},
+        {"3 L X+10 R+5 F100\n", "p.h:4:10: error: R with a number is no radius compensation"},
         {"3 L X+1e F100\n", "p.h:4:8: error: 'E' does not belong into a block L"},
         {"3 C X+1 Y+1 DR+\n", "p.h:4:5: error: a circle without a centre"},
         {"3 CC X+5 Y+0\n4 C X+5 Y+9\n", "p.h:5:5: error: a circle without DR+ or DR-"},

@@ -15,6 +15,7 @@ constexpr double kSamePointMm = 1e-6;
 // Largest difference between a stated turn and the turn of the points.
 constexpr double kTurnToleranceRad = 0.02;
 constexpr double kMostTurns = 10'000;
+constexpr std::size_t kItemsOfNx = 11;
 
 constexpr const char* kCorrect = "correct the circle or its points";
 
@@ -82,6 +83,13 @@ Result<Circle> read_circle(const Statement& statement, Path& path, Report& repor
     const Frame& frame = path.frames.to_program();
     circle.centre_mm = frame.point(*point);
     circle.normal = normalized(frame.turn(*direction));
+    // As its arcs between tangent lines show.
+    const bool is_of_nx = path.settings.is_nx && count >= kItemsOfNx && axis == 3;
+    if (is_of_nx) {
+        circle.normal = -circle.normal;
+        if (report.first(Note::circle_of_nx))
+            report.warn(statement.word.line, "circles of NX turn clockwise about their axis");
+    }
     if (is_through_tool) {
         circle.radius_mm = distance_from_axis(circle, path.place()->tip_mm);
     } else {

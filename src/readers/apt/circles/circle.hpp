@@ -22,7 +22,8 @@ struct Circle {
 };
 
 // Spellings:
-//   CIRCLE/x,y,z,i,j,k,r            ISO 4343, Creo; NX adds tolerances
+//   CIRCLE/x,y,z,i,j,k,r            ISO 4343, Creo
+//   CIRCLE/x,y,z,i,j,k,r,t,f,d,e    NX: the arc turns clockwise, seen from the tip of i,j,k
 //   CIRCLE/x,y,z,i,j,k              SOLIDWORKS CAM: through the place of the tool
 //   MOVARC/x,y,z,i,j,k,r,ANGLE,a    exporters of Autodesk; may have TIMES,n
 //   MOVARC/CENTER,x,y,z,AXIS,i,j,k,RADIUS,r
