@@ -47,11 +47,14 @@ Result<void> Procedures::take(const Statement& statement, double unit_mm, const 
         return {};
     }
     if (loops_ > 0) {
-        if (!is_plain && matches(statement.word.text, "LOOPST")) ++loops_;
-        if (is_plain || !matches(statement.word.text, "LOOPND") || --loops_ > 0) {
+        Statement bare = statement;
+        const bool has_label = !is_plain && !take_label(bare).empty();
+        if (!is_plain && matches(bare.word.text, "LOOPST")) ++loops_;
+        if (is_plain || !matches(bare.word.text, "LOOPND") || --loops_ > 0) {
             loop_.push_back(statement);
             return {};
         }
+        if (has_label) loop_.push_back(statement);  // a jump to it ends the loop
         const std::vector<Statement> statements = std::exchange(loop_, {});
         return run_block(statements, unit_mm, run);
     }

@@ -27,7 +27,6 @@ enum class Note {
     home,
     rapid_speed,
     full_circle,
-    circle_of_nx,
     pecks,
     compensation,
     surface_normal,

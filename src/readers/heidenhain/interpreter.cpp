@@ -257,7 +257,8 @@ Result<void> Interpreter::execute_path(LineReader& in) {
     const std::size_t first = character(0) == 'I' ? 1 : 0;
     const bool is_axis = std::string_view("XYZABCUVW").find(character(first)) != std::string_view::npos;
     const char behind = character(first + 1);
-    if (is_axis && (behind == '+' || behind == '-' || behind == '.' || is_digit(behind))) return line(in, false);
+    if (is_axis && (behind == '+' || behind == '-' || behind == '.' || is_digit(behind)))
+        return line(in, false);
     const std::size_t blank = line_.text.find_first_of(" \t");
     std::string word(line_.text.substr(0, std::min<std::size_t>(blank, 12)));
     for (char& c : word) {

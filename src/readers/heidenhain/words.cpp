@@ -125,9 +125,10 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         words.side = item.name == "RL" ? 1 : -1;
     } else if (item.name == "R" && !item.value && item.sign != 0) {
         if (path_.first(kOneAxisCompensation)) {
-            path_.warn(item.line,
-                       "R+ and R- lengthen and shorten a move along one axis by the tool's radius: the programmed "
-                       "path is taken");
+            path_.warn(
+                item.line,
+                "R+ and R- lengthen and shorten a move along one axis by the tool's radius: the programmed "
+                "path is taken");
         }
     } else if (item.name == "R") {
         return in.refuse(item.column, "R with a number is no radius compensation", "write RL, RR or R0");

@@ -136,6 +136,13 @@ Result<void> Interpreter::apply_g(Words& words, const Code& code) {
             }
             return choose_unit(g == 20 ? LengthUnit::inch : LengthUnit::millimetre);
         case 70:
+            if (path_.first(kFeedOfInches)) {
+                path_.warn(
+                    line_number(),
+                    "G70: F is taken in inches per minute, as on a control that is set up in inches; one in "
+                    "millimetres keeps mm/min: G700 and G710 leave no doubt");
+            }
+            return choose_unit(LengthUnit::inch);
         case 700:
             return choose_unit(LengthUnit::inch);
         case 71:

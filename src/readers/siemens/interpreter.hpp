@@ -57,6 +57,7 @@ enum Note {
     kPolar,
     kOtherStock,
     kCurveThroughPoints,
+    kFeedOfInches,
 };
 
 inline constexpr int kDeepestCall = 24;          // of calls and repeats within each other

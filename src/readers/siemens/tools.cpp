@@ -20,6 +20,17 @@ int whole_at(const std::vector<Value>& index, std::size_t i) {
     return static_cast<int>(std::clamp(*number, -1.0, 1e9));
 }
 
+// Behind the value that the cursor is at: to the next `$...=` of the block, or to its end.
+void skip_to_next_setting(Cursor& in) {
+    char last = '=';  // the last character but blanks
+    for (; in.at < in.line.size(); ++in.at) {
+        const char c = in.line[in.at];
+        if (c == '$' && (is_letter(last) || is_digit(last) || last == ')' || last == ']' || last == '"'))
+            return;
+        if (!is_blank(c)) last = c;
+    }
+}
+
 }  // namespace
 
 // Finds the numbers that tools have in the text, so that named tools get others; and whether M6 changes them.
@@ -113,7 +124,7 @@ Result<void> Interpreter::assign_system(Cursor& in) {
     if (is_frame(name) || name.ends_with("FRAME")) return assign_frame(name, index, at, in);
     const bool is_tool = name == "TC_DP3" || name == "TC_DP6" || name == "TC_DP7";
     if (!is_tool || index.size() != 2 || whole_at(index, 1) != 1) {
-        in.at = in.line.size();
+        skip_to_next_setting(in);
         if (passed_over_.insert(name).second) {
             path_.warn(line_number(), "$" + name.substr(0, 31) +
                                           " is a setting of the machine: it is taken not to move the tool");
@@ -134,7 +145,13 @@ Result<void> Interpreter::assign_system(Cursor& in) {
     if (data.length_mm > 0 && kLimits.tool_length.range.contains(data.length_mm))
         tool.length_mm = data.length_mm;
     path_.define_radius(number, data.radius_mm);
-    if (name == "TC_DP6") path_.declare(tool);
+    const auto declared = std::ranges::find(path_.program.tools, number, &motion::DeclaredTool::number);
+    if (declared == path_.program.tools.end()) {
+        path_.declare(tool);
+    } else {
+        tool.line = declared->line;
+        *declared = tool;
+    }
     return {};
 }
 

@@ -159,6 +159,7 @@ constexpr std::array kPhrases{
     Phrase{"FULLR", ball, false, Match::part},
     Phrase{"HEMISPHERI", ball, false, Match::part},
     Phrase{"SPHERIQUE", ball, false},
+    Phrase{"BOULE", ball, false},
     Phrase{"ESFERIC", ball, false, Match::part},
     Phrase{"SFERIC", ball, false, Match::part},
     Phrase{"KULIST", ball, true, Match::part},

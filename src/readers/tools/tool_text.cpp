@@ -180,6 +180,8 @@ class TextReader {
         const TextToken& next = token(i + 1);
         if (t.text == "T" && next.is_count() && next.is_glued && !tool_.number) {
             set_number(next);
+            // T1755863337: a number of a tool library.
+            if (!tool_.number && next.value > kLimits.tool_number.range.max) tool_.names_tool = true;
             number_at_ = i + 1;
             return 2;
         }
@@ -214,6 +216,17 @@ class TextReader {
             set_diameter(size, Plainness::size);
             return 2;
         }
+        // KR020.000 of a set-up sheet: the radius.
+        if (t.text == "KR" && tool_.number && next.is_number() && next.is_glued && next.value > 0) {
+            TextToken size = next;
+            size.value *= 2;
+            set_diameter(size, Plainness::key);
+            return 2;
+        }
+        // R2=4: the corner radius in the tool table of a TNC.
+        const bool is_r2 = t.text == "R" && next.is_count() && next.is_glued && next.value == 2 &&
+                           token(i + 2).is_sign('=') && token(i + 3).is_number();
+        if (is_r2) return take_corner(i, i + 3);
         const bool is_corner = is_one_of(kCornerWords, t) ||
                                (t.text == "R" && has_number && plainness_ != Plainness::none) ||
                                (t.text == "CORNER" && has_number);
@@ -222,7 +235,8 @@ class TextReader {
             const std::size_t behind = number_behind(i + 1);
             if (!is_end(behind)) return take_corner(i, behind);
         }
-        if ((t.text == "R" || t.text == "RADIUS") && has_number && !radius_) {
+        const bool is_radius = t.text == "R" || t.text == "RADIUS" || t.text == "RAYON";
+        if (is_radius && has_number && !radius_) {
             radius_ = StatedLength{token(at).value, token(at).unit_mm};
             return at - i + 1;
         }
@@ -262,7 +276,10 @@ class TextReader {
     }
 
     std::size_t take_diameter(std::size_t i) {
-        const std::size_t at = number_behind(i);
+        // DIA OUTIL = 15.
+        const bool names_tool = is_one_of(kToolWords, token(i + 1));
+        is_about_tool_ = is_about_tool_ || names_tool;
+        const std::size_t at = number_behind(names_tool ? i + 1 : i);
         if (!is_end(at)) {
             has_diameter_key_ = true;
             set_diameter(token(at), Plainness::key);
@@ -457,6 +474,10 @@ class TextReader {
         // H1 D1 are the numbers of offsets, and D1 beside words about offsets is.
         if (plainness_ == Plainness::name && glued_d_ > 0 && (glued_d_ == offset_ || is_about_offset_))
             tool_.diameter.reset();
+        if (tool_.corner && !tool_.diameter && tool_.shape == ToolShape::ball) {
+            tool_.diameter = StatedLength{2 * tool_.corner->value, tool_.corner->unit_mm};
+            plainness_ = Plainness::name;
+        }
         if (radius_ && !tool_.diameter && tool_.shape == ToolShape::ball) {
             tool_.diameter = StatedLength{2 * radius_->value, radius_->unit_mm};
             plainness_ = Plainness::name;

@@ -36,6 +36,11 @@ TEST(AptMotion, CirclesTurnAboutTheirAxisToTheNextPoint) {
                0.5 * kPi * r);
     expect_arc(from + "CIRCLE/0,0,0,0,0,1,10,0.06,0.5,D,0\nGOTO/-10,0,0\n", {0, 10, 0}, kPi * r);
     // A helix: centre and end at other heights.
+    // A CLSF of NX: clockwise about the axis. A corner of Q_LOGO's kind goes on along the next line.
+    const std::string nx = "TLDATA/MILL,0.1,0,3,0,0\nGOTO/-10,0,0,0,0,1\n",
+                      corner = "CIRCLE/0,0,0,0,0,1,10,0.06,0.5,0,0\nGOTO/0,10,0\n";
+    expect_arc(nx + corner, {-q, q, 0}, 0.5 * kPi * r);
+    expect_arc(nx + "CIRCLE/0,0,0,0,0,1,10\nGOTO/0,10,0\n", {q, -q, 0}, 1.5 * kPi * r);
     expect_arc(from + "CIRCLE/0,0,7,0,0,1,10\nGOTO/-10,0,4\n", {0, 10, 2}, std::hypot(kPi * r, 4));
     // In a plane across x.
     expect_arc("FROM/5,0,10\nCIRCLE/0,0,0,1,0,0,10\nGOTO/5,-10,0\n", {5, -q, q}, 0.5 * kPi * r);

@@ -39,6 +39,9 @@ TEST(AptProcedures, StandForTheirPoints) {
         {"A=2\nB=-A**2+3*(A+1)/2\nGOTO/B,10*SINF(30),SQRTF(A*8)\nGOTO/(B+.5)*2,-(A-5),1.5E1\n",
          "GOTO/.5,5,4\nGOTO/2,3,15\n"},
         // A row of holes by the arithmetic IF, with a label alone in its line.
+        {"X=10\nLOOPST\nL1) GOTO/X,0,5\nGODLTA/0,0,-6\nX=X+10\nIF (X-30) L1,L1,FIN\nFIN) "
+         "loopnd\nGOTO/0,0,9\n",
+         "GOTO/10,0,5\nGODLTA/0,0,-6\nGOTO/20,0,5\nGODLTA/0,0,-6\nGOTO/30,0,5\nGODLTA/0,0,-6\nGOTO/0,0,9\n"},
         {"X=10\nLOOPST\nL1) GOTO/X,0,5\nGODLTA/0,0,-6\nX=X+10\nIF (X-30) L1,L1,L2\nL2)\nLOOPND\nGOTO/0,0,9\n",
          "GOTO/10,0,5\nGODLTA/0,0,-6\nGOTO/20,0,5\nGODLTA/0,0,-6\nGOTO/30,0,5\nGODLTA/0,0,-6\nGOTO/0,0,9\n"},
         // Rows and columns by logical IF and JUMPTO; steps of 0.1 that add up to 0.3.

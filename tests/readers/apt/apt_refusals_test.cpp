@@ -95,7 +95,7 @@ TEST(AptRefusals, NameTheStatementThePlaceAndTheReason) {
         {at + "GOCLER/1\n", 4, 1, "statement 'GOCLER' is not known"},
         {at + "N10 G1 X5\n", 4, 1, "statement 'N10 G1 X5' is not known"},
         {at + "M30\n", 4, 1, "statement 'M30' is not known"},
-        {at + "L1=LINE/1,2\n", 4, 1, "statement 'L1=LINE' is not known"},
+        {at + "L1=LINE/1,2\n", 4, 1, "which defines geometry (LINE"},
         {at + "GOTO/1,2,3,0,0,1,0,0,0\n", 4, 18, "the direction has no length"},
         {"$$-> CSYS / 1,0,0\n", 1, 6, "'CSYS' has 3 numbers"},
         {at + "$$-> CSYS / 1,0,0,9,0,1,0,0,0,0,1,0\n", 4, 6, "another coordinate system than at the start"},

@@ -41,7 +41,8 @@ TEST(Heidenhain, CountsInches) {
     // So do feeds of TOOL CALL and of cycles; a feed per turn does not.
     const motion::Program others = conversational(
         "0 BEGIN PGM P INCH\n1 TOOL CALL 1 Z S100 F200\n2 L X+0 Y+0 Z+1 FMAX M3\n3 L X+1\n4 L X+2 FU0.01\n"
-        "5 CYCL DEF 200 Q200=0.1 Q201=-0.5 Q206=150 Q202=1 Q203=0 Q204=0.5\n6 L X+3 FMAX M99\n7 END PGM P INCH\n");
+        "5 CYCL DEF 200 Q200=0.1 Q201=-0.5 Q206=150 Q202=1 Q203=0 Q204=0.5\n6 L X+3 FMAX M99\n7 END PGM P "
+        "INCH\n");
     std::vector<double> feeds;
     for (const motion::Move& move : others.moves)
         if (move.kind == motion::MoveKind::feed) feeds.push_back(move.feed_mm_per_min);
@@ -68,8 +69,7 @@ TEST(Heidenhain, TurnsByDrWhereIpaLeadsToTheSamePlace) {
     EXPECT_NEAR(motion::path_length_mm(program.moves[last - 2]), std::hypot(20 * kPi, 4), 1e-9);
     EXPECT_NEAR(program.moves[last - 2].arc->normal.z, -1, 1e-12);
     EXPECT_NEAR(motion::path_length_mm(program.moves[last - 1]), 10 * kPi, 1e-9);
-    expect_near(program.moves[last - 1].end.tip_mm,
-                {-10, 0, program.moves[last - 2].end.tip_mm.z}, 1e-9);
+    expect_near(program.moves[last - 1].end.tip_mm, {-10, 0, program.moves[last - 2].end.tip_mm.z}, 1e-9);
     EXPECT_NEAR(motion::path_length_mm(program.moves[last]), 20 * kPi, 1e-9);
     EXPECT_NEAR(program.moves[last].arc->normal.z, 1, 1e-12);
     EXPECT_TRUE(warns_of(program, 6, "DR counts") || warns_of(program, 7, "DR counts"));

@@ -231,6 +231,16 @@ TEST(Siemens, LeadsSplinesThroughTheirPoints) {
     EXPECT_NEAR(feed_mm(siemens("F100\nASPLINE X0 Y0\nG0 Z50\n")), 0, 1e-9);
 }
 
+TEST(Siemens, ReadsAllSettingsOfABlock) {
+    const motion::Program program = siemens(
+        "$TC_DP1[1,1]=120 $TC_DP3[1,1]=100 $TC_DP6[1,1]=3*2 $TC_DP7[1,1]=1\n$MC_A=$MN_B+1 G70\nT1 M6\nF10 G1 "
+        "X1\n");
+    ASSERT_EQ(program.tools.size(), 1u);
+    EXPECT_EQ(program.tools[0].diameter_mm, 12);
+    EXPECT_EQ(program.tools[0].corner_mm, 1);
+    EXPECT_TRUE(warns_of(siemens("G70\nF10 G1 X1\n"), 4, "F is taken in inches per minute"));
+}
+
 TEST(Siemens, TakesVariablesOfTheControlThatItSets) {
     const motion::Program program = siemens("_CAMTOLERANCE=0.01\nF100 G1 X=_CAMTOLERANCE*500\n_NAME=\"A\"\n");
     EXPECT_NEAR(feed_mm(program), 5, 1e-9);

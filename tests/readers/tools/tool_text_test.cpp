@@ -122,6 +122,11 @@ const Form kForms[] = {
     {"T2 BROCA\xC3\x87\xC3\x83O \xC3\x98"
      "5mm",
      2, drill, 5, 1, 0, 0, 0},
+    {"T2: Kugelfraeser (R2=4)", 2, ball, 8, 0, 4, 0, 0},
+    {"DIA OUTIL = 15. RAYON = 1.", kNoNumber, unstated, 15, 0, 1, 0, 0},
+    {"T01 TC1: KL+087.000 KR020.000 NZ06", 1, unstated, 40, 0, 0, 0, 0},
+    {"T1595399926 | D6_HSS_CSF / DM=6 CR=0 TL=177.2", kNoNumber, unstated, 6, 0, 0, 0, 0},
+    {"FRAISE BOULE D10", kNoNumber, ball, 10, 0, 0, 0, 0},
     // Threads: by number, of pipes, of the library of Mastercam
     {"1/4-20 TAPRH|TOOL - 2|DIA. OFF. - 2|LEN. - 2|TOOL DIA. - .25", 2, tap, 0.25, 0, 0, 0, 0},
     {"NO. 10-24 TAPRH", kNoNumber, tap, 0.19, 25.4, 0, 0, 0},

@@ -83,13 +83,8 @@ Result<Circle> read_circle(const Statement& statement, Path& path, Report& repor
     const Frame& frame = path.frames.to_program();
     circle.centre_mm = frame.point(*point);
     circle.normal = normalized(frame.turn(*direction));
-    // As its arcs between tangent lines show.
-    const bool is_of_nx = path.settings.is_nx && count >= kItemsOfNx && axis == 3;
-    if (is_of_nx) {
-        circle.normal = -circle.normal;
-        if (report.first(Note::circle_of_nx))
-            report.warn(statement.word.line, "circles of NX turn clockwise about their axis");
-    }
+    // NX turns the other way, as its arcs between tangent lines show.
+    if (path.settings.is_nx && count >= kItemsOfNx) circle.normal = -circle.normal;
     if (is_through_tool) {
         circle.radius_mm = distance_from_axis(circle, path.place()->tip_mm);
     } else {

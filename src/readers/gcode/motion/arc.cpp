@@ -70,9 +70,10 @@ Result<motion::Arc> arc_about_centre(const ArcEnds& ends, Vec3 centre_mm, double
         off > tolerance.largest_mm ||
         (off > tolerance.always_mm && off > kRelativeTolerance * std::max(start_radius, end_radius));
     if (is_off && !(ends.is_coarse && off <= tolerance.coarse_mm)) {
-        return fail("the arc's radius is " + mm_text(start_radius) + " at its start and " +
-                        mm_text(end_radius) + " at its end",
-                    "correct the end or the centre; with centres in absolute coordinates write G90.1 first");
+        return fail(
+            "the arc's radius is " + mm_text(start_radius) + " at its start and " + mm_text(end_radius) +
+                " at its end",
+            "correct the end or the centre; say so where centres are absolute (G90.1, on Siemens I=AC(..))");
     }
 
     const InPlane chord = difference(ends, ends.end_mm, ends.start_mm);
