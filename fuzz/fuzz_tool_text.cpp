@@ -16,11 +16,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size > largest) return 0;
     readers::TextLines lines({reinterpret_cast<const char*>(data), size});
     readers::ToolNotes notes;
+    motion::Move move;
     while (const auto line = lines.next()) {
         if (line->starts_with("M6")) {
-            notes.change(static_cast<int>(line->size()) - 2);
-        } else if (*line == "G1") {
-            notes.cut();
+            move.tool = static_cast<int>(line->size()) - 2;
+            notes.change(move.tool);
+        } else if (*line == "G1" || *line == "G81") {
+            move.end.tip_mm = *line == "G1" ? Vec3{1, 0, 0} : Vec3{0, 0, -1};
+            notes.cut(move);
         } else {
             notes.read(*line, lines.number());
         }
