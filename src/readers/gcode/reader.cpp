@@ -24,6 +24,7 @@
 #include "readers/gcode/text/lexer.hpp"
 #include "readers/gcode/text/parameters.hpp"
 #include "readers/gcode/text/tool_vectors.hpp"
+#include "readers/gcode/text/unit_of_texts.hpp"
 
 namespace tribo::readers {
 namespace gcode {
@@ -37,7 +38,8 @@ class ProgramReader {
           lexer_(bytes, options.source_name, options.skip_deletable_blocks, parameters_),
           flow_(bytes, options, lexer_, parameters_, output_.moves) {
         output_.text = bytes;
-        state_.unit_mm = mm_per(options.default_unit);
+        state_.unit_is_of_texts = options.dialect == GcodeDialect::fanuc && is_in_inches_by_texts(bytes);
+        state_.unit_mm = mm_per(state_.unit_is_of_texts ? LengthUnit::inch : options.default_unit);
         state_.retract_to_r = options.dialect == GcodeDialect::linuxcnc;
         if (!writes_tool_vectors(bytes)) return;
         state_.rotary.vectors = state_.rotary.by_length_code = true;

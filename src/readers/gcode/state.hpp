@@ -186,6 +186,7 @@ struct State {
     int line = 0;  // of the running block
     double unit_mm = 1;
     bool unit_stated = false;
+    bool unit_is_of_texts = false;  // inches, as the texts about tools say
     Plane plane = Plane::xy;
     bool incremental = false;
     bool absolute_centres = false;  // G90.1

@@ -249,6 +249,20 @@ TEST(GcodeReader, PlacesTurnedScaledMirroredAndPolarCoordinates) {
     EXPECT_NEAR(motion::path_length_mm(grown), 15 * kPi, 1e-9);
 }
 
+TEST(GcodeReader, TakesInchesWhereNoUnitIsStatedAndToolsAreInInches) {
+    GcodeOptions options;
+    options.dialect = GcodeDialect::fanuc;
+    const std::string path = "T1 M6\nM3 S900 F9\nG0 X0 Y0 Z1\nG1 X2\n";
+    const motion::Program inches = program_of("(T1 1/2 END MILL)\n" + path, options);
+    EXPECT_NEAR(feed_mm(inches), 50.8, 1e-9);
+    EXPECT_TRUE(warns_of(inches, 4, "inches are taken, as the sizes of its tools"));
+    for (const char* head : {"(T1 12 MM END MILL)\n", "(1/2 WAY THROUGH)\n", "G21 (T1 1/2 END MILL)\n",
+                             "(T1 1/2 END MILL)(T2 6MM DRILL)\n", "(T1 1/2 END MILL)\nG071\n"})
+        EXPECT_NEAR(feed_mm(program_of(head + path, options)), 2, 1e-9) << head;
+    EXPECT_NEAR(feed_mm(program_of("(T1 1/2 END MILL)\n" + path)), 2,
+                1e-9);  // of LinuxCNC: its set-up says it
+}
+
 TEST(GcodeReader, ChangesTheToolByG100OfBrother) {
     GcodeOptions options;
     options.dialect = GcodeDialect::fanuc;

@@ -294,8 +294,10 @@ Result<std::optional<double>> length_mm(Command& command, char letter, State& st
         return std::unexpected(good.error());
     if (!state.unit_stated) {
         if (output.first(Note::no_unit)) {
-            output.warn(command.line(), "no G20 or G21 before the first coordinates: " +
-                                            std::string(plural(output.options.default_unit)) + " are taken");
+            const std::string taken = state.unit_is_of_texts
+                                          ? "inches are taken, as the sizes of its tools are in inches"
+                                          : std::string(plural(output.options.default_unit)) + " are taken";
+            output.warn(command.line(), "no G20 or G21 before the first coordinates: " + taken);
         }
     }
     return value;
