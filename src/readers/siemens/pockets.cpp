@@ -115,9 +115,11 @@ Result<double> Interpreter::cycle_feed(const Call& call, std::size_t at) const {
 
 void Interpreter::note_own_way(const std::string& cycle) {
     if (!path_.first(kPocket)) return;
-    path_.warn(line_number(), "the way of the tool within " + cycle +
-                                  " is the control's own: rings from the inside outwards, and lines there "
-                                  "and back, are taken");
+    const bool is_stud = cycle == "CYCLE76" || cycle == "CYCLE77" || cycle == "CYCLE79";
+    path_.warn(line_number(),
+               "the way of the tool within " + cycle + " is the control's own: " +
+                   (is_stud ? "rings from the outside inwards are taken"
+                            : "rings from the inside outwards, and lines there and back, are taken"));
 }
 
 Result<void> Interpreter::run_milling_cycle(const Call& call) {

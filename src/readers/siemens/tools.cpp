@@ -103,7 +103,6 @@ void Interpreter::read_notes(std::string_view text, std::string_view code) {
         const std::string_view inside = code.substr(open + 1);
         path_.notes.read(inside.substr(0, inside.find('"')), line_number());
     }
-    if (trimmed(code).starts_with('(')) path_.notes.read(trimmed(code).substr(1), line_number());
 }
 
 // $TC_DP6[1,1]=5; the cursor is at the '$'.

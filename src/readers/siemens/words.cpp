@@ -111,7 +111,10 @@ Result<void> Interpreter::read_word(Cursor& in, Words& words, int depth) {
         if (path_.first(kComment)) {
             path_.warn(line_number(), "text in parentheses is taken as a comment; Siemens writes ';'");
         }
-        return skip_parentheses(in);
+        const std::size_t begin = in.at + 1;
+        if (auto done = skip_parentheses(in); !done) return done;
+        path_.notes.read(in.line.substr(begin, in.at - begin - 1), line_number());
+        return {};
     }
     if (c == '@') {
         return in.refuse(in.at, "@ codes of the Sinumerik 8xx are not read", "write it for an 840D");
@@ -173,7 +176,9 @@ Result<void> Interpreter::read_name(Cursor& in, Words& words, int depth) {
         inner.at = 0;
         return read_words(inner, words, depth + 1);
     }
-    const bool is_program = next == '(' || text_.unit_named(name) != nullptr;
+    // A name has two letters; M6 (TEXT) is a word with a comment.
+    const bool is_called = next == '(' && (!is_address || name[0] == 'L');
+    const bool is_program = is_called || text_.unit_named(name) != nullptr;
     if (name[0] != '_' && (name.size() == 1 || is_numbered) && !is_program) {
         in.at = at + 1;
         if (name[0] == 'L' && is_numbered && is_address) {  // L100: a subprogram

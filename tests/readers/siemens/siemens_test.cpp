@@ -231,6 +231,13 @@ TEST(Siemens, LeadsSplinesThroughTheirPoints) {
     EXPECT_NEAR(feed_mm(siemens("F100\nASPLINE X0 Y0\nG0 Z50\n")), 0, 1e-9);
 }
 
+TEST(Siemens, TakesTextBehindAWordForAComment) {
+    const motion::Program program = siemens("T2 M6 (T2 D=10.)\nF100 (SLOW) G1 (LINE) X5 (END)\n");
+    EXPECT_NEAR(feed_mm(program), 5, 1e-9);
+    ASSERT_EQ(program.tools.size(), 1u);
+    EXPECT_EQ(program.tools[0].diameter_mm, 10);
+}
+
 TEST(Siemens, ReadsAllSettingsOfABlock) {
     const motion::Program program = siemens(
         "$TC_DP1[1,1]=120 $TC_DP3[1,1]=100 $TC_DP6[1,1]=3*2 $TC_DP7[1,1]=1\n$MC_A=$MN_B+1 G70\nT1 M6\nF10 G1 "
