@@ -76,6 +76,12 @@ TEST(GcodeOffsets, FanucStatesWorkSystemsFromTheMachineAndTheStockStandsAtTheFir
     expect_near(both.moves[1].end.tip_mm, {110, 0, 4});
     EXPECT_TRUE(warns_of(both, 4, "taken at the zero of that work system"));
     EXPECT_TRUE(warns_of(both, 6, "zero at X110 Y0 Z-1 mm from the stock's origin"));
+    // In G91 the values are added: three parts in a row.
+    const motion::Program row = program_of(
+        "G21 M3 F100\nG0 X0 Y0 Z5\nG91 G10 L2 P1 X50\nG90 G1 X0\nG91 G10 L2 P1 X50\nG90 G1 X0\n", fanuc);
+    ASSERT_EQ(row.moves.size(), 2u);
+    expect_near(row.moves[0].end.tip_mm, {50, 0, 5});
+    expect_near(row.moves[1].end.tip_mm, {100, 0, 5});
     // The way home before them names no place; the system that the program begins in counts, not the first.
     const motion::Program second = program_of(
         "G21 M3 F100\nG90 G28 X0 Y0 Z0\n#5241=-30\nG55 G0 X0 Y0 Z5\nG1 X1\nX#5241\nG92 X0\nX2\n", fanuc);

@@ -67,10 +67,12 @@ Result<void> set_work_origin(Command& command, State& state, Output& output,
                              const Result<std::size_t>& index) {
     if (!index) return std::unexpected(index.error());
     WorkSystem work = state.work[*index];
+    // Fanuc controls add to it in G91.
+    const bool adds = state.incremental && output.options.dialect == GcodeDialect::fanuc;
     for (int axis = 0; axis < 3; ++axis) {
         const auto word = coordinate_mm(command, axis, state, output);
         if (!word) return std::unexpected(word.error());
-        if (*word) work.origin_mm[axis] = **word;
+        if (*word) work.origin_mm[axis] = **word + (adds ? work.origin_mm[axis] : 0);
     }
     if (const Word* turn = command.use('R')) {
         if (std::abs(turn->value) > 360) {
