@@ -55,6 +55,13 @@ TEST(FeedWords, of_siemens_may_have_an_equals_sign_and_stand_beside_texts) {
               "MSG(\"F9\")\nG1 X1 F=200\nX2 OFFN=3 F100\n");
 }
 
+TEST(FeedWords, behind_functions_of_heidenhain_are_theirs) {
+    EXPECT_EQ(
+        changed("1 L X+1 R0 F800\n2 L M128 F5000\n3 L X+2\n4 L X+3 M140 MB+50 F750\n5 L X+4 M103 F20 F400\n",
+                FeedLanguage::heidenhain, {{1, 1}, {3, 0.5}, {4, 0.5}, {5, 0.5}}),
+        "1 L X+1 R0 F800\n2 L M128 F5000\n3 L X+2 F400\n4 L X+3 M140 MB+50 F750\n5 L X+4 M103 F20 F200\n");
+}
+
 TEST(FeedWords, of_heidenhain_stand_before_m_words) {
     EXPECT_EQ(
         changed("0 BEGIN PGM A MM\n1 FN 0: Q1 = +5\n2 L X+10 R0 F1000 M3\n3 L X+20 R0 M8\n4 L Z+5 R0 FMAX\n",

@@ -30,6 +30,19 @@ std::optional<NumberWord> word_behind(std::string_view line, std::size_t at, Fee
     return std::nullopt;
 }
 
+// The F at `at` of a Klartext block is that of M128, M103 or M140 MB before it, and not of the path.
+bool is_of_function(std::string_view line, std::size_t at) {
+    std::string before(trimmed(line.substr(0, at)));
+    std::ranges::transform(before, before.begin(), to_upper);
+    const auto is_word = [&](std::size_t m) { return m == 0 || !is_letter(before[m - 1]); };
+    for (const std::string_view name : {"M128", "M103"}) {
+        if (before.ends_with(name) && is_word(before.size() - name.size())) return true;
+    }
+    const std::size_t m140 = before.rfind("M140");
+    return m140 != kNone && is_word(m140) &&
+           before.find_first_not_of(" \tMBAX+-.,0123456789", m140 + 4) == kNone;
+}
+
 }  // namespace
 
 std::optional<NumberWord> number_at(std::string_view line, std::size_t at) {
@@ -60,6 +73,9 @@ std::optional<NumberWord> word_in_block(std::string_view line, FeedLanguage lang
             n = std::min(line.find('>', n + 1), line.size());
         } else if (to_upper(c) == letter && depth == 0 &&
                    (n == 0 || !(is_letter(line[n - 1]) || line[n - 1] == '_'))) {
+            const bool is_other =
+                letter == 'F' && language == FeedLanguage::heidenhain && is_of_function(line, n);
+            if (is_other) continue;
             if (auto word = word_behind(line, n + 1, language, letter)) return word;
         }
     }
