@@ -75,6 +75,7 @@ Result<bool> Interpreter::add_to_contour(const Words& words, Vec3 to, const std:
     }
     if (!was_open) {
         if (side_ != 0 && arc) {
+            if (follows_refusal()) return false;
             return path_.refuse(where, "radius compensation begins with a circle",
                                 "write RL or RR in a line before it, or in APPR");
         }

@@ -354,6 +354,7 @@ void Interpreter::come_from_above() {
 
 Result<void> Interpreter::run_cycle(Place where) {
     if (cycle_.number == 0) {
+        if (follows_refusal()) return {};
         return path_.refuse(where, "a cycle is called, but none is defined", "write CYCL DEF before it");
     }
     if (captured_) return path_.refuse(where, "a cycle is called within a contour", "call it behind LBL 0");

@@ -17,6 +17,7 @@
 #include "readers/control/helix.hpp"
 #include "readers/control/path.hpp"
 #include "readers/control/pocket.hpp"
+#include "readers/control/refusals.hpp"
 #include "readers/control/run_limit.hpp"
 #include "readers/gcode/state.hpp"
 #include "readers/heidenhain/free_contour.hpp"
@@ -216,6 +217,8 @@ class Interpreter {
 
     // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp, thread_milling.cpp, faces.cpp)
     Result<void> define_cycle(LineReader& in);
+    // A block was refused: what lacks it now is no fault of its own.
+    bool follows_refusal() const { return first_refusal(path_.options.refusals) != nullptr; }
     void change_cycle(int parameter, double value);
     double unit_of_parameter(int q) const;
     Result<void> leave_out_cycle(int number);

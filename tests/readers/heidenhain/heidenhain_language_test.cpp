@@ -406,6 +406,14 @@ TEST(Heidenhain, gives_all_refusals_at_once) {
         EXPECT_EQ(refusals[i].line, lines[i]) << refusals[i].text();
         EXPECT_FALSE(refusals[i].remedy.empty());
     }
+    // What lacks a refused block is no fault of its own.
+    refusals.clear();
+    (void)read_heidenhain(
+        after_start("3 CYCL DEF 203 DRILL ~\n  Q200=+1\n4 L X+1 Y+1 FMAX M99\n5 L X+2 RL F100\n"
+                    "6 HELLO\n7 L X+3 Y+1 Z+1 FMAX\n8 CR X+5 Y+3 R+3 DR+ F100\n9 L Y+9\n"),
+        options);
+    ASSERT_EQ(refusals.size(), 2U);
+    EXPECT_EQ(refusals[1].line, 8);
     refusals.clear();
     EXPECT_TRUE(read_heidenhain(after_start("3 L X+5 F100\n"), options).has_value());
     EXPECT_TRUE(refusals.empty());
