@@ -119,6 +119,24 @@ std::string_view name_of(Dialect dialect) {
     return names[static_cast<std::size_t>(dialect)];
 }
 
+std::optional<int> line_of_isg_kernel(std::string_view bytes) {
+    constexpr std::string_view begins[] = {"#VAR",   "#CSDEF",  "#CSON",  "#RTCP",
+                                           "#TRAFO", "#ENDVAR", "LCYCLE["};
+    TextLines lines(bytes.substr(0, kLookedAt));
+    for (int number = 1; const auto line = lines.next(); ++number) {
+        const std::string text = plain(*line);
+        std::string_view block = text;
+        if (block.starts_with('N'))
+            block.remove_prefix(std::min(block.find_first_not_of("0123456789", 1), block.size()));
+        const bool is_begun =
+            std::ranges::any_of(begins, [&](std::string_view begin) { return block.starts_with(begin); });
+        const bool has_variable =
+            block.find("V.L.") != std::string_view::npos || block.find("V.P.") != std::string_view::npos;
+        if (is_begun || has_variable) return number;
+    }
+    return std::nullopt;
+}
+
 std::optional<Dialect> detect_dialect(std::string_view bytes) {
     TextLines lines(bytes.substr(0, kLookedAt));
     bool first = true;

@@ -281,7 +281,7 @@ Unread unread_g(int tenths) {
         case 960:
             return {"constant surface speed", "use G97 with S in turns per minute"};
         default:
-            return {"", "check the number and the dialect"};
+            return {"", "check the number and the dialect; a shop may let it call a macro (O9010 to O9019)"};
     }
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include "readers/text/text_lines.hpp"
+
 namespace tribo::readers::gcode {
 namespace {
 
@@ -47,6 +49,27 @@ void note_writing(const Block& block, Output& output) {
     if (block.has_deleted_rest && output.first(Note::deleted_rest)) {
         output.warn(block.line, "what follows '/' in a block is skipped, as with block delete switched on");
     }
+}
+
+void note_least_increments(const State& state, Output& output) {
+    constexpr double large_mm = 1000;
+    if (output.options.dialect != GcodeDialect::fanuc || state.largest_mm < large_mm) return;
+    TextLines lines(output.text);
+    while (const auto line = lines.next()) {
+        const std::string_view code = line->substr(0, line->find_first_of("(;"));
+        for (std::size_t at = 0; at < code.size(); ++at) {
+            const char letter = to_upper(code[at]);
+            if (letter < 'X' || letter > 'Z') continue;
+            const std::size_t end = std::min(code.find_first_not_of("+-0123456789", at + 1), code.size());
+            // A point, or a formula.
+            if (end < code.size() && std::string_view(".#[").find(code[end]) != std::string_view::npos)
+                return;
+        }
+    }
+    output.warn(
+        0,
+        "no coordinate has a point, and some are large: a Fanuc control that is set up so counts them in "
+        "thousandths of a millimetre (parameter 3401, DPI); whole millimetres or inches are taken");
 }
 
 bool pass_drawing_data(const Block& block, const State& state, Output& output) {

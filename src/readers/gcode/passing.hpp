@@ -25,6 +25,10 @@ bool pass_drawing_data(const Block& block, const State& state, Output& output);
 // Passes over a line that begins with '$'; after $H only the machine knows where the tool is.
 void pass_setting(const Block& block, State& state, Output& output);
 
+// Warns of a Fanuc program without any point in its coordinates and with large ones: the control may count
+// them in thousandths.
+void note_least_increments(const State& state, Output& output);
+
 // Warns of a program that looks as if it were for a lathe.
 void note_lathe(const State& state, Output& output);
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "readers/control/dialect.hpp"
 #include "readers/gcode/calls.hpp"
 #include "readers/gcode/command.hpp"
 #include "readers/gcode/flow.hpp"
@@ -51,6 +52,13 @@ class ProgramReader {
     }
 
     Result<motion::Program> read() {
+        if (const auto line = line_of_isg_kernel(output_.text)) {
+            return output_.refuse(
+                *line, 1,
+                "this is a program for the ISG kernel (Beckhoff TwinCAT CNC and others), whose "
+                "words are not read",
+                "post-process it for another control");
+        }
         Block block;
         bool more = true;
         while (more) {
@@ -104,7 +112,10 @@ class ProgramReader {
             is_over_ = true;
             return std::unexpected(counted.error());
         }
-        for (const std::string_view comment : block.comments) output_.notes.read(comment, block.line);
+        const bool changes_tool = std::ranges::any_of(
+            block.words, [](const Word& word) { return word.letter == 'M' && word.value == 6; });
+        for (const std::string_view comment : block.comments)
+            output_.notes.read(comment, block.line, changes_tool);
         note_writing(block, output_);
         if (block.deletable && output_.options.skip_deletable_blocks) {
             if (output_.first(Note::deletable_blocks)) {
@@ -319,6 +330,7 @@ class ProgramReader {
         }
         output_.finish();
         note_lathe(state_, output_);
+        note_least_increments(state_, output_);
         if (output_.moves == 0) output_.warn(0, "the program moves no tool");
         program.tools = output_.notes.tools(state_.unit_mm, program.source, program.warnings);
         return std::move(program);

@@ -219,6 +219,7 @@ struct State {
     bool has_changed_tool = false;
     std::optional<double> offset_number;  // the last D that stood without G41 or G42
     bool has_y = false;                   // the program has a Y word
+    double largest_mm = 0;                // of its coordinates
 
     std::array<WorkSystem, kAllWorkSystems> work;
     int active_work = 0;

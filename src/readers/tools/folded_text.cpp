@@ -21,6 +21,8 @@ void append_folded(std::string& out, char32_t code) {
             return;
         case 0xD8:  // O with stroke, typed as a diameter sign
         case 0xF8:
+        case 0x3A6:  // phi
+        case 0x3C6:
         case 0x2300:  // diameter
         case 0x2205:  // empty set
             out += " DIA ";

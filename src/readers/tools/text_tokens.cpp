@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readers/tools/text_tokens.hpp"
 
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -129,7 +130,9 @@ class Tokenizer {
         const bool is_joined =
             start == at_ && start + 1 < text_.size() && text_[start] == '-' && is_letter(text_[start + 1]);
         if (is_joined) ++start;
-        const bool is_quoted = !tokens_.empty() && tokens_.back().is_sign('"');
+        // The quote that ends a name, "PLANFR63", is no sign of inches.
+        const bool is_quoted =
+            std::ranges::count_if(tokens_, [](const TextToken& t) { return t.is_sign('"'); }) % 2 == 1;
         // 63 "PLANFR63": the quote begins a name.
         const bool begins_name = start > at_ && start + 1 < text_.size() && is_letter(text_[start + 1]);
         if (start < text_.size() && text_[start] == '"' && !is_quoted && !begins_name) {

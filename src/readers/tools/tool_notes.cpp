@@ -10,6 +10,7 @@
 #include "readers/text/decimal_text.hpp"
 #include "readers/text/text_lines.hpp"
 #include "readers/tools/folded_text.hpp"
+#include "readers/tools/tool_list.hpp"
 
 namespace tribo::readers {
 namespace {
@@ -70,7 +71,7 @@ ToolSizes sizes_of(const ToolText& text, double unit_mm) {
     return sizes;
 }
 
-void ToolNotes::read(std::string_view text, int line) {
+void ToolNotes::read(std::string_view text, int line, bool is_beside_change) {
     const auto at = static_cast<std::size_t>(std::max(line, 0));
     if (at >= lines_.size()) lines_.resize(at + 1);
     if (std::exchange(line_, line) != line) {
@@ -79,12 +80,13 @@ void ToolNotes::read(std::string_view text, int line) {
         lines_[at] = true;
     }
     if (is_read_) return;
-    for (const std::string_view part : texts_of_tools(text)) is_taken_ = take(part, line) || is_taken_;
+    for (const std::string_view part : texts_of_tools(text))
+        is_taken_ = take(part, line, is_beside_change) || is_taken_;
 }
 
 // Returns true if the text is about a tool.
-bool ToolNotes::take(std::string_view text, int line) {
-    Note note{read_tool_text(text), line};
+bool ToolNotes::take(std::string_view text, int line, bool is_name) {
+    Note note{read_tool_text(text, is_name), line};
     ToolText& tool = note.text;
     if (largest_number_ && tool.number > largest_number_) {
         tool.number.reset();

@@ -26,7 +26,8 @@ class ToolNotes {
     // Larger numbers in texts are those of a tool library: they name no tool of the program.
     void number_up_to(int largest) { largest_number_ = largest; }
     // Reads a comment, a message or the name of a tool; each line once, though a loop may run it again.
-    void read(std::string_view text, int line);
+    // `is_beside_change`: it stands in the block that changes the tool, and so names it.
+    void read(std::string_view text, int line, bool is_beside_change = false);
     // Reads the name under which a program calls tool `number`: a text about that name describes it, else the
     // name itself.
     void name(int number, std::string_view name, int line);
@@ -65,7 +66,7 @@ class ToolNotes {
         int tool = 0;
         Note first, second;
     };
-    bool take(std::string_view text, int line);
+    bool take(std::string_view text, int line, bool is_name);
     bool take_of_library(const Note& note);
     void put_library_texts();
     void attach(int tool, const Note& note);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "base/limits.hpp"
 #include "readers/text/text_lines.hpp"
 #include "readers/tools/folded_text.hpp"
+#include "readers/tools/standard_sizes.hpp"
 #include "readers/tools/text_tokens.hpp"
 
 namespace tribo::readers {
@@ -26,19 +26,22 @@ constexpr std::array kToolWords{"TOOL"sv,        "WERKZEUG"sv, "WZ"sv,    "OUTIL
 constexpr std::array kDiameterWords{"DIA"sv,         "DIAM"sv,    "DIAMETER"sv, "DIAMETRE"sv, "DIAMETRO"sv,
                                     "DURCHMESSER"sv, "DIAMETR"sv, "DMR"sv,      "FI"sv};
 constexpr std::array kCornerWords{"CR"sv, "RC"sv, "ECKENRADIUS"sv, "ECKRADIUS"sv};
-constexpr std::array kFluteWords{
-    "FLUTE"sv, "FLUTES"sv, "FLUITE"sv,    "FL"sv,        "TEETH"sv, "TOOTH"sv,  "ZAHN"sv,  "ZAEHNE"sv,
-    "ZAHNE"sv, "ZAHNIG"sv, "SCHNEIDER"sv, "SCHNEIDEN"sv, "DENTS"sv, "LABIOS"sv, "FILOS"sv, "TAGLIENTI"sv};
+constexpr std::array kFluteWords{"FLUTE"sv,     "FLUTES"sv, "FLUITE"sv,  "FL"sv,     "FLT"sv,
+                                 "FLTS"sv,      "INSERT"sv, "INSERTS"sv, "TEETH"sv,  "TOOTH"sv,
+                                 "ZAHN"sv,      "ZAEHNE"sv, "ZAHNE"sv,   "ZAHNIG"sv, "SCHNEIDER"sv,
+                                 "SCHNEIDEN"sv, "DENTS"sv,  "LABIOS"sv,  "FILOS"sv,  "TAGLIENTI"sv};
 // The number behind one of these is no diameter.
 constexpr std::array kOtherWords{"L"sv,  "LEN"sv, "LENGTH"sv, "LANGE"sv, "LAENGE"sv, "LONG"sv,  "EXT"sv,
                                  "H"sv,  "S"sv,   "F"sv,      "Z"sv,     "ZMIN"sv,   "ZMAX"sv,  "X"sv,
                                  "Y"sv,  "OFF"sv, "RPM"sv,    "FEED"sv,  "CUT"sv,    "DEPTH"sv, "STICKOUT"sv,
                                  "ID"sv, "N"sv,   "STOCK"sv,  "LEAVE"sv, "PITCH"sv,  "SHANK"sv};
 // A number before one of these is no diameter.
-constexpr std::array kExtents{"DEEP"sv,  "DEPTH"sv, "TIEF"sv, "LONG"sv,  "LANG"sv, "WIDE"sv,
-                              "THICK"sv, "MIN"sv,   "RPM"sv,  "SHANK"sv, "BORE"sv};
+constexpr std::array kExtents{"LOC"sv,  "OAL"sv,   "DEEP"sv, "DEPTH"sv, "TIEF"sv,  "LONG"sv, "LANG"sv,
+                              "WIDE"sv, "THICK"sv, "MIN"sv,  "RPM"sv,   "SHANK"sv, "BORE"sv};
 constexpr std::array kAngleWords{"TAPER"sv, "ANGLE"sv, "WINKEL"sv,  "SPITZENWINKEL"sv,
                                  "POINT"sv, "SIG"sv,   "TIPANGLE"sv};
+// A number before one of these is the radius of a corner, or of a ball.
+constexpr std::array kRadiusWords{"R"sv, "RAD"sv, "RADIUS"sv, "RADIUSED"sv, "RAYON"sv};
 // What may stand between a size and its noun: 0.500 4FL END MILL.
 constexpr std::array kBeforeNouns{"END"sv,    "FLAT"sv,    "BALL"sv, "BULL"sv, "NOSE"sv,
                                   "SQUARE"sv, "CARBIDE"sv, "HSS"sv,  "VHM"sv,  "CHAMFER"sv,
@@ -47,6 +50,10 @@ constexpr std::array kOffsetWords{"COMP"sv, "COMPENSATION"sv, "OFFSET"sv, "REGIS
 // Nouns of tools that are verbs, too.
 constexpr std::array kWork{"DRILL"sv, "MILL"sv, "TAP"sv, "TURN"sv, "PROBE"sv, "COUNTERBORE"sv};
 constexpr int kMostFlutesInText = 24;
+constexpr std::array kParallelPipes{"G"sv, "R"sv, "RP"sv, "BSP"sv, "BSPP"sv};
+constexpr std::array kTaperPipes{"NPT"sv, "NPTF"sv, "BSPT"sv, "RC"sv};
+// Threads in an inch: 10-24 TAP.
+constexpr double kLeastPitch = 20;
 // Whole numbers beside a noun that are sizes: ENDMILL 12, but ENDMILL 2 may be the second one.
 constexpr double kLeastWholeMm = 3, kLargestWholeMm = 160;
 
@@ -56,6 +63,10 @@ enum class Plainness { none, size, name, key };
 bool is_one_of(Words words, const TextToken& token) {
     return token.kind == TextToken::Kind::word &&
            std::ranges::any_of(words, [&](std::string_view word) { return token.text == word; });
+}
+
+bool is_whole_number(std::string_view text) {
+    return !text.empty() && std::ranges::all_of(text, is_digit);
 }
 
 // DRILL_D8_5, MILL_D6_R0_5: names of tools may not hold a point. The number behind a size of a mill may be
@@ -115,8 +126,9 @@ class TextReader {
     // Portuguese.
     bool is_about_end_mill() const {
         if (tokens_.size() == 2 && tokens_[0].is_word("EM") && is_fraction(tokens_[1])) return true;
-        if (tokens_.size() < 2 || !tokens_.back().is_word("EM")) return false;
+        if (tokens_.size() < 2) return false;
         const std::size_t first = tokens_[0].is_word("T") && token(1).is_glued ? 2 : 0;
+        if (!tokens_.back().is_word("EM") && !token(first + 1).is_word("EM")) return false;
         return token(first).is_number() || (token(first).is_sign('-') && token(first + 1).is_number());
     }
 
@@ -152,22 +164,37 @@ class TextReader {
             // #14 [.182"] DRILL, #7 DRILL: the number of a wire gauge.
             const bool is_gauge = token(2).is_sign('[') || token(2).is_sign('(') || token(2).text == "DRILL";
             if (!is_gauge) set_number(token(i + 1));
+            if (is_gauge && tool_.shape == ToolShape::drill) (void)set_gauge(token(i + 1));
             return 2;
         }
         return 1;
     }
 
-    // #10-24, NO. 10-24: a thread of 0.060 inches and 0.013 for each number (ASME B1.1).
-    bool set_numbered_thread(std::size_t i) {
-        constexpr double largest = 14;
-        const TextToken& t = token(i);
-        const bool is_thread = t.is_count() && t.value <= largest && token(i + 1).is_sign('-') &&
-                               token(i + 2).is_count() && !is_one_of(kOtherWords, token(i + 1));
-        if (!is_thread) return false;
-        TextToken size = t;
-        size.value = (60 + 13 * t.value) / 1000;
+    void set_inches(double inches) {
+        TextToken size;
+        size.value = inches;
         size.unit_mm = 25.4;
         set_diameter(size, Plainness::size);
+    }
+
+    // #7 DRILL, NO.7 DRILL: the wire gauge of a drill. The point of "NO." may have become that of the number.
+    bool set_gauge(const TextToken& number) {
+        const std::string_view digits = number.text.substr(number.text.starts_with('.') ? 1 : 0);
+        const auto gauge = is_whole_number(digits) ? number_of(digits) : std::nullopt;
+        if (!gauge || *gauge < 1 || *gauge > kGauges) return false;
+        set_inches(gauge_drill_in(static_cast<int>(*gauge)));
+        return true;
+    }
+
+    // #10-24, NO. 10-24
+    bool set_numbered_thread(std::size_t i) {
+        const TextToken& t = token(i);
+        const std::string_view digits = t.text.substr(t.text.starts_with('.') ? 1 : 0);  // NO.10-32
+        const auto number = t.is_number() && is_whole_number(digits) ? number_of(digits) : std::nullopt;
+        const bool is_thread =
+            number && *number <= kLargestThread && token(i + 1).is_sign('-') && token(i + 2).is_count();
+        if (!is_thread) return false;
+        set_inches(numbered_thread_in(*number));
         return true;
     }
 
@@ -197,13 +224,31 @@ class TextReader {
         }
         const bool is_d = t.text == "D";
         if ((is_d || t.text == "DM") && has_number && (has_sign || next.is_glued)) {  // DM=8, DM8
+            if (is_d && !has_sign && token(at).is_integer && token(at).unit_mm == 0) {
+                glued_d_ = token(at);  // a diameter, or the number of an offset
+                return at - i + 1;
+            }
             set_diameter(token(at), has_sign ? Plainness::key : Plainness::name);
-            if (is_d && !has_sign) glued_d_ = token(at).value;
             if (is_d && token(i + 1).is_sign('=') && tool_.number) tool_.is_for_compensation = true;
             return at - i + 1;
         }
-        const bool is_thread_number = tool_.shape == ToolShape::tap && t.text == "NO" && has_number;
-        if (is_thread_number && set_numbered_thread(at)) return at - i + 1;
+        if (t.text == "NO" && has_number && tool_.shape == ToolShape::tap && set_numbered_thread(at))
+            return at - i + 1;
+        if (t.text == "NO" && has_number && tool_.shape == ToolShape::drill && set_gauge(token(at)))
+            return at - i + 1;
+        if (t.text == "LETTER" && next.kind == TextToken::Kind::word && next.text.size() == 1 &&
+            tool_.shape == ToolShape::drill) {
+            set_inches(letter_drill_in(next.text[0]));
+            return 2;
+        }
+        // EM10, FM63
+        if ((t.text == "EM" || t.text == "FM") && next.is_number() && next.is_glued) {
+            tool_.names_tool = true;
+            if (tool_.shape == ToolShape::unstated)
+                tool_.shape = t.text == "EM" ? ToolShape::flat : ToolShape::face;
+            set_diameter(next, Plainness::size);
+            return 2;
+        }
         if (t.text == "MM" && next.is_count() && next.is_glued) {  // MM10
             TextToken size = next;
             size.unit_mm = 1;
@@ -280,6 +325,16 @@ class TextReader {
         const bool names_tool = is_one_of(kToolWords, token(i + 1));
         is_about_tool_ = is_about_tool_ || names_tool;
         const std::size_t at = number_behind(names_tool ? i + 1 : i);
+        // .5 DIA 4 FLT EM, .257 DIA 135 DEG DRILL: the size stands before, another number behind.
+        const bool is_other =
+            !is_end(at) && (token(at).is_angle || is_one_of(kFluteWords, token(at + 1)) ||
+                            is_one_of(kExtents, token(at + 1)) || is_one_of(kRadiusWords, token(at + 1)) ||
+                            token(at + 1).is_word("POINT") || token(at + 1).is_word("ST"));
+        if (is_other && i > 0 && token(i - 1).is_number()) {
+            has_diameter_key_ = true;
+            set_diameter(token(i - 1), Plainness::key);
+            return 1;
+        }
         if (!is_end(at)) {
             has_diameter_key_ = true;
             set_diameter(token(at), Plainness::key);
@@ -293,7 +348,7 @@ class TextReader {
 
     std::size_t take_corner(std::size_t i, std::size_t at) {
         if (!tool_.corner) tool_.corner = StatedLength{token(at).value, token(at).unit_mm};
-        return at - i + 1;
+        return at > i ? at - i + 1 : 1;
     }
 
     // FLUTES 3; but FLUTE LEN 16 is a length.
@@ -339,6 +394,23 @@ class TextReader {
             set_number(t);
             return 2;
         }
+        // 16R0.8: a diameter and its corner. 1/16 R BALL, .03 RAD: a radius.
+        const bool is_glued_r = token(i + 1).is_word("R") && token(i + 1).is_glued &&
+                                token(i + 2).is_number() && token(i + 2).is_glued;
+        if (is_glued_r && (tool_.number || tool_.names_tool)) {
+            set_diameter(t, Plainness::name);
+            return 1 + take_corner(i + 1, i + 2);
+        }
+        const bool is_radius =
+            is_one_of(kRadiusWords, token(i + 1)) && !token(i + 2).is_number() && !token(i + 2).is_sign('=');
+        if (is_radius && tool_.shape == ToolShape::ball) {
+            if (!radius_) radius_ = StatedLength{t.value, t.unit_mm};
+            return 2;
+        }
+        if (is_radius && (tool_.number || tool_.names_tool) && !is_end(i + 2))
+            return 1 + take_corner(i + 1, i);
+        if (tool_.shape == ToolShape::tap && token(i + 2).value >= kLeastPitch && set_numbered_thread(i))
+            return 3;
         const bool is_extent = is_one_of(kExtents, token(i + 1));
         if (t.unit_mm > 0 && !is_extent) {
             is_behind_number_ = is_behind_number_ || is_right_behind_number(i);
@@ -446,34 +518,28 @@ class TextReader {
         return true;
     }
 
-    // G1/4, NPT 1/8: a thread of pipes is wider than its name says (ISO 228-1; ASME B1.20.1).
+    // H1 D1 are the numbers of offsets, and so are D05, D1 beside words about offsets and D21 beside inches.
+    bool is_offset(const TextToken& number) const {
+        const bool is_in_inches = tool_.diameter && tool_.diameter->unit_mm > 1;
+        return number.value == offset_ || is_about_offset_ || number.text.starts_with('0') || is_in_inches;
+    }
+
+    // G1/4, NPT 1/8: a thread of pipes is wider than its name says.
     void widen_pipe_thread() {
-        struct Pipe {
-            double inch, parallel_mm, taper_mm;
-        };
-        constexpr std::array pipes{Pipe{0.125, 9.728, 10.287},  Pipe{0.25, 13.157, 13.716},
-                                   Pipe{0.375, 16.662, 17.145}, Pipe{0.5, 20.955, 21.336},
-                                   Pipe{0.75, 26.441, 26.670},  Pipe{1, 33.249, 33.401}};
-        constexpr std::array parallel{"G"sv, "R"sv, "RP"sv, "BSP"sv, "BSPP"sv};
-        constexpr std::array taper{"NPT"sv, "NPTF"sv, "BSPT"sv, "RC"sv};
         const auto has = [&](Words words) {
             return std::ranges::any_of(tokens_, [&](const TextToken& t) { return is_one_of(words, t); });
         };
-        const bool is_taper = has(taper);
-        if (!tool_.diameter || (!is_taper && !has(parallel))) return;
-        for (const Pipe& pipe : pipes) {
-            const bool is_it =
-                tool_.diameter->value == pipe.inch && (tool_.diameter->unit_mm == 25.4 || pipe.inch == 1);
-            if (is_it) tool_.diameter = StatedLength{is_taper ? pipe.taper_mm : pipe.parallel_mm, 1};
-        }
+        const bool is_taper = has(kTaperPipes);
+        if (!tool_.diameter || (!is_taper && !has(kParallelPipes))) return;
+        const bool is_in_inches = tool_.diameter->unit_mm > 1 || tool_.diameter->value == 1;
+        const double wide_mm = is_in_inches ? pipe_thread_mm(tool_.diameter->value, is_taper) : 0;
+        if (wide_mm > 0) tool_.diameter = StatedLength{wide_mm, 1};
     }
 
     void finish() {
         if (text_.find("WEAR COMP") != std::string::npos) tool_.is_for_compensation = false;
         if (!tool_.diameter) tool_.asks_for_size = is_about_tool_ && text_.find("SIZE") != std::string::npos;
-        // H1 D1 are the numbers of offsets, and D1 beside words about offsets is.
-        if (plainness_ == Plainness::name && glued_d_ > 0 && (glued_d_ == offset_ || is_about_offset_))
-            tool_.diameter.reset();
+        if (glued_d_.is_number() && !is_offset(glued_d_)) set_diameter(glued_d_, Plainness::name);
         if (tool_.corner && !tool_.diameter && tool_.shape == ToolShape::ball) {
             tool_.diameter = StatedLength{2 * tool_.corner->value, tool_.corner->unit_mm};
             plainness_ = Plainness::name;
@@ -510,7 +576,8 @@ class TextReader {
     ToolText tool_;
     Plainness plainness_ = Plainness::none;
     std::optional<StatedLength> radius_;  // R or RADIUS before any diameter
-    double glued_d_ = 0, offset_ = -1;
+    TextToken glued_d_;                   // a whole number right behind D
+    double offset_ = -1;
     int lettered_flutes_ = 0;
     std::size_t number_at_ = 0;  // of the tool's number, where T stands before it
     bool is_about_tool_ = false, has_diameter_key_ = false, is_behind_number_ = false, is_named_ = false;
@@ -519,38 +586,6 @@ class TextReader {
 };
 
 }  // namespace
-
-std::vector<std::string_view> texts_of_tools(std::string_view text) {
-    std::vector<std::size_t> begins, ends;  // of each number that begins an item, from its T
-    std::set<std::string_view> numbers;
-    for (std::size_t at = 0; at + 1 < text.size(); ++at) {
-        if (to_upper(text[at]) != 'T' || !is_digit(text[at + 1])) continue;
-        std::size_t before = at;
-        while (before > 0 && is_blank(text[before - 1])) --before;
-        const bool begins_item = before == 0 || before < at ||
-                                 std::string_view(",;/|:(+&").find(text[before - 1]) != std::string::npos;
-        std::size_t end = at + 1;
-        while (end < text.size() && is_digit(text[end])) ++end;
-        if (!begins_item || (end < text.size() && is_letter(text[end]))) continue;
-        begins.push_back(at);
-        ends.push_back(end);
-        numbers.insert(text.substr(at + 1, end - at - 1));
-    }
-    if (numbers.size() < 2) return {text};
-    // 10MM MILL T1, 6MM DRILL T2: the number ends its item.
-    const bool ends_item = std::ranges::any_of(text.substr(0, begins[0]), is_digit);
-    std::vector<std::string_view> parts;
-    for (std::size_t i = 0; i < begins.size(); ++i) {
-        const bool is_first = i == 0, is_last = i + 1 == begins.size();
-        const std::size_t begin = !ends_item ? begins[i] : is_first ? 0 : ends[i - 1];
-        const std::size_t end = ends_item ? ends[i] : is_last ? text.size() : begins[i + 1];
-        std::string_view part = text.substr(begin, end - begin);
-        while (!part.empty() && std::string_view(" ,;/|-").find(part.back()) != std::string_view::npos)
-            part.remove_suffix(1);
-        parts.push_back(part);
-    }
-    return parts;
-}
 
 ToolText read_tool_text(std::string_view text, bool is_name) {
     constexpr std::size_t longest = 400;

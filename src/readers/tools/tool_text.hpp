@@ -5,7 +5,6 @@
 
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "readers/tools/tool_shape.hpp"
 
@@ -41,10 +40,6 @@ struct ToolText {
     // True if the text is about a tool: it has a number or a noun, and a diameter.
     bool describes_tool() const { return diameter && (number || names_tool); }
 };
-
-// Returns the parts of a text that lists several tools, each from its number on: "T1 D10 MILL, T2 = 6.6
-// DRILL". Else the text alone.
-std::vector<std::string_view> texts_of_tools(std::string_view text);
 
 // Never fails: a text that is about something else gives nothing. `is_name`: it is the name of a tool.
 ToolText read_tool_text(std::string_view text, bool is_name = false);

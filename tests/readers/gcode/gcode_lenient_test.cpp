@@ -249,6 +249,25 @@ TEST(GcodeReader, PlacesTurnedScaledMirroredAndPolarCoordinates) {
     EXPECT_NEAR(motion::path_length_mm(grown), 15 * kPi, 1e-9);
 }
 
+TEST(GcodeReader, SaysThatLargeCoordinatesWithoutPointsMayBeThousandths) {
+    GcodeOptions options;
+    options.dialect = GcodeDialect::fanuc;
+    const std::string start = "G21 M3 S900 F200\nG0 X12000 Y0 Z1000\n";
+    EXPECT_TRUE(warns_of(program_of(start + "G1 Z0\n", options), 0, "thousandths of a millimetre"));
+    for (const char* text : {"G1 Z0.\n", "#1=5\nG1 Z#1\n", "G1 Z[5]\n"})
+        EXPECT_FALSE(warns_of(program_of(start + text, options), 0, "thousandths of a millimetre")) << text;
+    EXPECT_FALSE(warns_of(program_of(start + "G1 Z0\n"), 0, "thousandths of a millimetre"));
+}
+
+TEST(GcodeReader, NamesTheKernelWhoseWordsItDoesNotRead) {
+    for (const char* text : {"#VAR\nV.L.R = 5\n#ENDVAR\nG0 X5\n",
+                             "G21 G0 X0 Y0 Z0\nN10 L CYCLE [NAME=A.ecy]\n", "G0 XV.L.R\n", "N5 #RTCP ON\n"}) {
+        const auto program = read_gcode(text);
+        ASSERT_FALSE(program.has_value()) << text;
+        EXPECT_NE(program.error().cause.find("ISG kernel"), std::string::npos) << program.error().text();
+    }
+}
+
 TEST(GcodeReader, TakesInchesWhereNoUnitIsStatedAndToolsAreInInches) {
     GcodeOptions options;
     options.dialect = GcodeDialect::fanuc;

@@ -122,6 +122,43 @@ const Form kForms[] = {
     {"T2 BROCA\xC3\x87\xC3\x83O \xC3\x98"
      "5mm",
      2, drill, 5, 1, 0, 0, 0},
+    // A diameter before DIA, whatever number follows
+    {"T1 .5 DIA 4 FLT EM", 1, flat, 0.5, 0, 0, 0, 4},
+    {"T1 1/2\" DIA 4 FLUTE ENDMILL", 1, flat, 0.5, 25.4, 0, 0, 4},
+    {"TOOL #1 .5 DIA. - 3 FLT FEM", 1, unstated, 0.5, 0, 0, 0, 3},
+    {"T1 .5 DIA 1.25 LOC EM", 1, flat, 0.5, 0, 0, 0, 0},
+    {"T1 .5 DIA .03 RAD EM", 1, flat, 0.5, 0, 0.03, 0, 0},
+    {"T1 .5 DIA 90 DEG SPOT", 1, spot_drill, 0.5, 0, 0, 90, 0},
+    {"T1 .257 DIA 135 DEG DRILL", 1, drill, 0.257, 0, 0, 135, 0},
+    {"T1 .257 DIA 3.5 LONG DRILL", 1, drill, 0.257, 0, 0, 0, 0},
+    {"T1 12MM DIA 4 FLUTE ENDMILL", 1, flat, 12, 1, 0, 0, 4},
+    {"T1 12MM DIA 2.5 RAD ENDMILL", 1, flat, 12, 1, 2.5, 0, 0},
+    {"T1 .5 DIA, 4 FLUTE ENDMILL", 1, flat, 0.5, 0, 0, 0, 4},
+    {"T1 6.0 DIA. BALL 2 FLT", 1, ball, 6, 0, 0, 0, 2},
+    // Numbers of offsets
+    {"T1   - 0.500 ENDMILL - H1   - D1   - D0.5000\"", 1, flat, 0.5, 25.4, 0, 0, 0},
+    {"T1 5/16 EM D21", 1, flat, 0.3125, 25.4, 0, 0, 0},
+    {"T1 H1 D1 DRILL D8.5", 1, drill, 8.5, 0, 0, 0, 0},
+    {"T5 D05 ENDMILL 10MM", 5, flat, 10, 1, 0, 0, 0},
+    {"T12 ENDMILL 10MM H12 D12", 12, flat, 10, 1, 0, 0, 0},
+    {"T6 D6 ENDMILL", 6, flat, 6, 0, 0, 0, 0},
+    // Gauges and letters, radii of balls, short forms
+    {"T1 NO.7 DRILL", 1, drill, 0.201, 25.4, 0, 0, 0},
+    {"#7 DRILL", kNoNumber, drill, 0.201, 25.4, 0, 0, 0},
+    {"NO. 21 DRILL", kNoNumber, drill, 0.159, 25.4, 0, 0, 0},
+    {"LETTER F DRILL", kNoNumber, drill, 0.257, 25.4, 0, 0, 0},
+    {"T1 NO.10-32 TAP", 1, tap, 0.19, 25.4, 0, 0, 0},
+    {"T1 10-32 TAP", 1, tap, 0.19, 25.4, 0, 0, 0},
+    {"T1 1/16 R BALL", 1, ball, 0.125, 25.4, 0, 0, 0},
+    {"T1 5MM RADIUS BALL", 1, ball, 10, 1, 0, 0, 0},
+    {"T1 EM10", 1, flat, 10, 0, 0, 0, 0},
+    {"T2 FM63", 2, face, 63, 0, 0, 0, 0},
+    {"T3 16R0.8", 3, unstated, 16, 0, 0.8, 0, 0},
+    {"DIA 50 FINISH BORE BAR", kNoNumber, boring, 50, 0, 0, 0, 0},
+    {"FAZOWNIK FI10 90ST", kNoNumber, chamfer, 10, 0, 0, 90, 0},
+    {"DRILL \xCF\x86"
+     "5.5mm",
+     kNoNumber, drill, 5.5, 1, 0, 0, 0},
     {"T2: Kugelfraeser (R2=4)", 2, ball, 8, 0, 4, 0, 0},
     {"DIA OUTIL = 15. RAYON = 1.", kNoNumber, unstated, 15, 0, 1, 0, 0},
     {"T01 TC1: KL+087.000 KR020.000 NZ06", 1, unstated, 40, 0, 0, 0, 0},
@@ -271,6 +308,27 @@ TEST(ToolNotes, give_a_text_without_a_number_to_the_tool_that_is_changed_next_to
     probed.change(1);
     probed.read("Change Tool: Diameter: 6 mm", 3);
     EXPECT_EQ(only_tool(probed).diameter_mm, 6);
+}
+
+TEST(ToolNotes, take_a_bare_number_in_the_block_that_changes_the_tool) {
+    for (const auto& [text, diameter] : {std::pair{"DRILL 8.5", 8.5},
+                                         {"FLAT ENDMILL 12", 12.0},
+                                         {"12 ENDMILL", 12.0},
+                                         {"FACEMILL 63", 63.0}}) {
+        ToolNotes notes;
+        notes.read(text, 2, true);
+        notes.change(2);
+        Warnings assumed;
+        const auto tools = notes.tools(1, "p.nc", assumed);
+        ASSERT_EQ(tools.size(), 1u) << text;
+        EXPECT_EQ(tools[0].diameter_mm, diameter) << text;
+    }
+    ToolNotes work;  // elsewhere it may be what is done
+    work.change(2);
+    work.read("DRILL 8.5", 3);
+    work.read("DRILL 4 HOLES", 4, true);
+    Warnings warnings;
+    EXPECT_TRUE(work.tools(1, "p.nc", warnings).empty());
 }
 
 TEST(ToolNotes, give_each_tool_of_a_list_in_one_line_its_part) {

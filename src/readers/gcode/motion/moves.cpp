@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/motion/moves.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/text/limit_text.hpp"
@@ -283,7 +284,9 @@ void note_spindle(const Command& command, const State& state, Output& output) {
 
 Result<std::optional<double>> coordinate_mm(Command& command, int axis, State& state, Output& output) {
     if (axis == 1 && command.has('Y')) state.has_y = true;
-    return length_mm(command, kAxisLetters[axis], state, output);
+    const auto coordinate = length_mm(command, kAxisLetters[axis], state, output);
+    if (coordinate && *coordinate) state.largest_mm = std::max(state.largest_mm, std::abs(**coordinate));
+    return coordinate;
 }
 
 Result<std::optional<double>> length_mm(Command& command, char letter, State& state, Output& output) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "readers/text/text_lines.hpp"
+#include "readers/tools/tool_list.hpp"
 #include "readers/tools/tool_text.hpp"
 
 namespace tribo::readers::gcode {
