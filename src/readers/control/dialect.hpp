@@ -23,10 +23,10 @@ std::string_view name_of(Dialect dialect);
 // Detects the control from clear signs in the first lines. Heidenhain: BEGIN PGM. Siemens: TRAORI, CYCLE800,
 // MSG(, GOTOF, DEF, words with '='. Fanuc: an O word alone at the start, GOTO, WHILE DO, G65, G43.4, G68.2.
 // LinuxCNC: o<name>, M428, named parameters. Returns none without a sign; callers then assume LinuxCNC.
+std::optional<Dialect> detect_dialect(std::string_view bytes);
+
 // Returns the line that tells a program of the ISG kernel (Beckhoff TwinCAT CNC and others), whose words are
 // not read: #VAR, #CS, #RTCP, V.L.NAME, L CYCLE.
 std::optional<int> line_of_isg_kernel(std::string_view bytes);
-
-std::optional<Dialect> detect_dialect(std::string_view bytes);
 
 }  // namespace tribo::readers

@@ -26,7 +26,8 @@ std::vector<std::string_view> texts_of_tools(std::string_view text) {
     }
     if (numbers.size() < 2) return {text};
     // 10MM MILL T1, 6MM DRILL T2: the number ends its item.
-    const bool ends_item = std::ranges::any_of(text.substr(0, begins[0]), is_digit);
+    const bool ends_item =
+        std::ranges::none_of(text.substr(ends.back()), [](char c) { return is_letter(c) || is_digit(c); });
     std::vector<std::string_view> parts;
     for (std::size_t i = 0; i < begins.size(); ++i) {
         const bool is_first = i == 0, is_last = i + 1 == begins.size();

@@ -338,6 +338,7 @@ TEST(ToolNotes, give_each_tool_of_a_list_in_one_line_its_part) {
         {"T1 10MM ENDMILL / T2 6.6 DRILL"},
         {"T1: FRESA D10 - T2: BROCA D6.6"},
         {"10MM END MILL T1, 6.6MM DRILL T2"},
+        {"HAAS VF-3 MACH21 / T01 10MM 2FL EM, T02 6.6MM DRILL"},
         {"T01 - 10MM END MILL", "T02 - 6.6MM DRILL"},
     };
     for (const auto& line : lines) {
