@@ -37,6 +37,7 @@ TEST(Dialect, IsToldByWhatOnlyOneControlWrites) {
         {"g2 x1 y1 cr=5\n", Dialect::siemens},
         {"N10 CYCLE800(0,\"\")\n", Dialect::siemens},
         {"N20 R1=0\nG0 X1\n", Dialect::siemens},
+        {"N20 S2=1500 M2=3\nG0 X1\n", Dialect::siemens},
         {"G0 X1\nN30 g1 z = r6\n", Dialect::siemens},
         {"DEF REAL _F\n", Dialect::siemens},
         {"IF R1==5 GOTOF END\n", Dialect::siemens},

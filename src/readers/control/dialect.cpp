@@ -70,7 +70,11 @@ bool looks_like_siemens(std::string_view text) {
     for (std::size_t i = text.find('='); i != std::string_view::npos; i = text.find('=', i + 1)) {
         const bool is_axis = i > 0 && text[i - 1] >= 'X' && text[i - 1] <= 'Z';
         const bool is_whole = i < 2 || is_digit(text[i - 2]) || text[i - 2] == '.' || text[i - 2] == ')';
-        if (is_axis && is_whole && i + 1 < text.size() && text[i + 1] != '=') return true;
+        // M2=3, S1=500: of the second spindle, of the first one.
+        const bool is_spindle = i > 1 && is_digit(text[i - 1]) && (text[i - 2] == 'M' || text[i - 2] == 'S');
+        const bool is_assigned = i + 1 < text.size() && text[i + 1] != '=';
+        if (is_assigned && ((is_axis && is_whole) || (is_spindle && (i == 2 || !is_letter(text[i - 3])))))
+            return true;
     }
     return false;
 }
