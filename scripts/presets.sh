@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Sourced by test.sh and soak.sh: run steps one after the other, remember how each went, and say so at the end.
 SUMMARY=()
+COUNTS=()
 FAILED=0
 
 # step NAME COMMAND...: runs on after a failure.
@@ -17,12 +18,14 @@ configure_and_build() {
     cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset" "$@"
 }
 
-# run_ctest PRESET [ctest option...]: prints failures and the closing lines only.
+# run_ctest PRESET [ctest option...]: prints failures, or how many tests passed; the summary says the number again.
 run_ctest() {
-    local preset=$1 log=build/$1/ctest.log
+    local preset=$1 log=build/$1/ctest.log count
     shift
     if ctest --preset "$preset" --no-tests=error --timeout 600 -j "$JOBS" "$@" >"$log" 2>&1; then
-        tail -n 4 "$log"
+        count=$(grep -m 1 'tests passed' "$log")
+        COUNTS+=("$preset: $count")
+        printf '%s\n' "$count"
     else
         grep -v ' Passed ' "$log" | tail -n 200
         return 1
@@ -38,7 +41,7 @@ test_preset() {
 
 closing_summary() {
     say "summary"
-    printf '%s\n' "${SUMMARY[@]}"
+    printf '%s\n' "${SUMMARY[@]}" ${COUNTS[@]+"${COUNTS[@]}"}
     if [ "$FAILED" -ne 0 ]; then fail "not everything passed"; fi
     echo "everything passed"
 }
