@@ -225,8 +225,8 @@ void WordTranslator::fagor_code(const std::string& number) {
         three_points();
     } else if (number == "5" || number == "7" || number == "50") {
         out_ += number == "7" ? "G61" : "G64";
-    } else if (number ==
-               "96") {  // of a mill: F is the feed where the edge cuts, not that of the tool's centre
+    } else if (number == "96") {
+        // F is the feed where the edge cuts, not that of the tool's centre.
         out_ += "G97";
     } else if (number == "10") {
         out_ += "G50.1";
