@@ -91,7 +91,7 @@ class Translator {
     }
 
     std::string line() {
-        const std::string block = block_of(lines_[at_]);
+        std::string block = block_of(lines_[at_]);
         if (in_cycle_) {
             const bool goes_on = cycle_goes_on();
             in_cycle_ = goes_on;

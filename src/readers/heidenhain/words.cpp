@@ -84,6 +84,7 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
     const bool incremental = name.size() >= 2 && name[0] == 'I';
     if (incremental) name.remove_prefix(1);
     const std::size_t axis = place_of(kAxes, name), rotary = place_of(kRotary, name);
+    const bool is_bare_axis = rotary != std::string_view::npos && !item.value;  // M138 A C, M116 B
     const std::size_t vector =
         item.name.size() == 2 && item.name[0] == 'T' ? kAxes.find(item.name[1]) : std::string_view::npos;
     if (axis < 3 && item.value) {
@@ -102,7 +103,8 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
         (incremental ? words.turn : words.rotary)[rotary] = item.value;
     } else if (vector < 3 && item.value && own == "LN") {
         words.vector[vector] = *item.value * mirror_[static_cast<int>(vector)];
-    } else if (is_passed(item, own) || (!words.m.empty() && belongs_to_function(item.name))) {
+    } else if (is_passed(item, own) ||
+               (!words.m.empty() && (belongs_to_function(item.name) || is_bare_axis))) {
         return {};
     } else if (name == "PR" && item.value) {
         words.polar_radius = *item.value * unit_mm_;
@@ -143,8 +145,6 @@ Result<void> Interpreter::sort_word(LineReader& in, const Item& item, std::strin
             return in.refuse(item.column, "M without a whole number", "correct it");
         }
         words.m.push_back(static_cast<int>(*item.value));
-    } else if (rotary != std::string_view::npos && !item.value && !words.m.empty()) {
-        return {};  // M138 A C, M116 B: the axes that the function is for
     } else if (item.name == "MB") {
         if (item.value) words.retract = *item.value * unit_mm_;
     } else if (item.name == "MBMAX") {

@@ -60,7 +60,7 @@ Result<void> Interpreter::mill_to(Vec3 to, std::optional<double> feed,
         turned->normal = from_plane(arc->normal);
     }
     const auto before = path_.feed_mm_per_min;
-    if (feed) path_.feed_mm_per_min = *feed;
+    if (feed) path_.feed_mm_per_min = feed;
     auto done = go(!feed, from_plane(to), turned, path_.rotary_rad());
     path_.feed_mm_per_min = before;
     return done;
