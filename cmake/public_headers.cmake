@@ -47,6 +47,7 @@ set(TRIBO_SENSE_HEADERS
     devices/serial_packets.h
     contact/half_spaces.hpp
     haptics/contact/probe_gap.hpp
+    haptics/contact/side_step.hpp
     haptics/device/device.hpp
     haptics/device/device_limits.hpp
     haptics/servo/loop_delay.hpp

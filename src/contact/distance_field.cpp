@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contact/distance_field.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -11,6 +12,8 @@ constexpr int kMostRounds = 16;
 constexpr double kAnyStep = 1e30;  // mm
 // A point this near to the surface counts as on it, mm.
 constexpr double kOnSurface = 1e-6;
+// What a searched sweep gives as one of many pieces may be off by this, mm.
+constexpr double kUnsure = 2e-5;
 // The search has ended at a point if the next step changes the distance by less than this, mm: half the
 // square of the step over the distance. Normals of swept edges are accurate to a thousandth only.
 constexpr double kStill = 5e-6;
@@ -73,6 +76,11 @@ Foot foot_at(Vec3 foot_mm, Vec3 on_mm, Vec3 point_mm, const HalfSpaces& sides) {
     return {{way, (point_mm - foot_mm) / way, piece}, foot_mm, touching, true};
 }
 
+bool lists(const HalfSpaces& sides, std::uint32_t piece) {
+    const auto end = sides.side.begin() + sides.count;
+    return std::any_of(sides.side.begin(), end, [&](const HalfSpace& side) { return side.piece == piece; });
+}
+
 // Until the pieces in `sides` have led to a place that is not on the surface, the field is not asked for
 // others. Along an edge each step is Newton's, with the bend of the sides over the step before (a secant).
 Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm,
@@ -114,10 +122,15 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             return foot_at(next, q, point_mm, sides);
         if (ask || held) {
             const SurfaceSample s = field.sample(q);
-            sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
-            next = sides.nearest(point_mm);
+            // The own answers of the pieces are the better ones.
+            const bool is_known = std::abs(s.distance_mm) <= kUnsure && std::abs(above_mm) <= kOnSurface &&
+                                  lists(sides, s.piece);
+            if (!is_known) {
+                sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
+                next = sides.nearest(point_mm);
+            }
             // On the surface, and no nearer point exists with the present sides.
-            if (std::abs(s.distance_mm) <= kOnSurface && is_still(next)) {
+            if ((is_known || std::abs(s.distance_mm) <= kOnSurface) && is_still(next)) {
                 if (distance(point_mm, next) <= kOnSurface) return {s, q, {}, true};
                 return foot_at(next, q, point_mm, sides);
             }
@@ -126,13 +139,13 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         edge = sides.edge_at(next);
         const bool on_edge = squared_length(edge.along) > 0;
         const Vec3 step = (on_edge ? sides.nearest_on_bend(point_mm, edge, next, q) : next) - q;
-        const double size = length(step);
-        there = size <= longest_mm;
-        const double step_mm = std::min(size, longest_mm);
+        const double size = length(step), share = size > longest_mm ? longest_mm / size : 1;
+        there = share == 1;
+        const double step_mm = share * size;
         moved_mm += step_mm;
-        q += there ? step : (longest_mm / size) * step;
+        q += share * step;
         // A step to the edge tells nothing of the bend along it.
-        along_mm = on_edge ? dot(step, edge.along) * (step_mm / size) : 0;
+        along_mm = on_edge ? share * dot(step, edge.along) : 0;
         if (std::abs(along_mm) < std::max(kAlong * step_mm, kLeastAlong * distance(point_mm, q)))
             along_mm = 0;
     }

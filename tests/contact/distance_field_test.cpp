@@ -87,5 +87,50 @@ TEST(DistanceField, an_edge_that_bends_is_followed_in_three_rounds_and_once_its_
     EXPECT_LE(asked[1], 2 * 2.3 * kCases);
 }
 
+// Two planes that meet, and a third one that touches their edge, as a searched sweep gives it: asked for all
+// pieces it is off by `error_mm` from what it is when asked alone.
+class UnsureEdge final : public DistanceField {
+  public:
+    static constexpr Vec3 kEdge{90.3, 50.1, -40.7};  // a place on it
+    explicit UnsureEdge(double error_mm) : error_(error_mm) {}
+    double distance_mm(Vec3 p) const override { return sample(p).distance_mm; }
+    Vec3 normal(Vec3 p) const override { return sample(p).normal; }
+    SurfaceSample sample(Vec3 p) const override {
+        if (std::abs(p.y - kEdge.y) > 1e-3) return sample_piece(p.y > kEdge.y ? 1 : 0, p);
+        SurfaceSample s = sample_piece(2, p);
+        s.distance_mm += error_;
+        return s;
+    }
+    SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
+        static constexpr std::array<Vec3, 3> kNormals{{{0, -0.6, 0.8}, {0, 0.6, 0.8}, {0, 0, 1}}};
+        return {dot(kNormals[piece], p - kEdge), kNormals[piece], piece};
+    }
+
+  private:
+    double error_;
+};
+
+// The place was never taken for found, and where a step had no length, its bend, 0 / 0, made the place NaN.
+TEST(DistanceField, an_edge_is_found_where_a_searched_sweep_gives_two_answers) {
+    const CounterNoise noise(9);
+    std::uint64_t drawn = 0;
+    const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(drawn++); };
+    for (int n = 0; n < 1000; ++n) {
+        const UnsureEdge field(between(-1e-5, 1e-5));
+        HalfSpaces sides;
+        for (const std::uint32_t piece : {0u, 1u}) {
+            const SurfaceSample s = field.sample_piece(piece, field.kEdge);
+            sides.put({s.normal, dot(s.normal, field.kEdge), piece}, 1);
+        }
+        const Vec3 p = field.kEdge + Vec3{between(-1, 1), between(-0.4, 0.4), between(1, 2)};
+        for (const Foot& foot :
+             {nearest_on(field, p, field.kEdge, sides), nearest_from(field, p, field.kEdge)}) {
+            ASSERT_NEAR(foot.sample.distance_mm, std::hypot(p.y - field.kEdge.y, p.z - field.kEdge.z), 3e-5)
+                << n;
+            ASSERT_NEAR(distance(foot.at_mm, p), foot.sample.distance_mm, 1e-9) << n;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace tribo::contact

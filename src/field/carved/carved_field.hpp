@@ -67,6 +67,7 @@ class CarvedField final : public contact::DistanceField {
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
     // grid gives the answer.
     bool is_material(Vec3 p, double skin_mm = 0) const { return tables_->query.is_material(p, skin_mm); }
+    ShapeId emptied_by(Vec3 p, double skin_mm) const { return tables_->query.emptied_by(p, skin_mm); }
     // Signed like a distance; its size is a lower bound of the distance to any surface (field_query.hpp).
     double clear_way_mm(Vec3 p, double enough_mm) const { return tables_->query.clear_way_mm(p, enough_mm); }
     double cell_mm() const { return cell_; }

@@ -33,6 +33,16 @@ double CarvedView::clear_way_mm(Vec3 p, double enough) const {
     return way;
 }
 
+const Shape* CarvedView::emptied_by(Vec3 p, double skin) const {
+    if (const ShapeId id = field_.emptied_by(p, skin); id != 0) return &field_.shape(id);
+    for (std::size_t n = pending_.size(); n-- > 0;) {
+        const PendingShape& pending = pending_[n];
+        if (pending.bounds_mm.inflated(skin).contains(p) && pending.shape->distance_below(p, skin) < skin)
+            return pending.shape;
+    }
+    return nullptr;
+}
+
 std::optional<Vec3> CarvedView::overlap(const Shape& shape, double depth_mm) const {
     const Box3 reach = shape.bounds_mm();
     const BrickCoord n = field_.size(), lo = field_.brick_at(reach.min), hi = field_.brick_at(reach.max);

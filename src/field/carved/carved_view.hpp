@@ -28,6 +28,9 @@ class CarvedView {
     double distance_mm(Vec3 point_mm) const;
     bool is_material(Vec3 point_mm, double skin_mm = 0) const;
     double clear_way_mm(Vec3 point_mm, double enough_mm) const;
+    // Returns a shape that has left or will leave no material at the point, but for a skin; null if none is
+    // known.
+    const Shape* emptied_by(Vec3 point_mm, double skin_mm) const;
     // Returns the node of material that lies deepest in `shape`, if any is deeper than `depth_mm`: the place
     // where a tool holder or a fixture collides. Finds overlaps down to about a cell.
     std::optional<Vec3> overlap(const Shape& shape, double depth_mm) const;

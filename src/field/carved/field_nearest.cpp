@@ -50,6 +50,15 @@ Vec3 clamped(const Box3& box, Vec3 p) {
             std::clamp(p.z, box.min.z, box.max.z)};
 }
 
+// Whether the nearest place is another one than that of the hint, and not the same that has slid on.
+bool has_leapt(const contact::Foot& foot, Vec3 p, const contact::NearHint& hint) {
+    // A place slides farther than its point on hollow surface only.
+    constexpr double kTurned = 0.9, kSlides = 20;
+    const Vec3 before = normalized(hint.from_mm - hint.at_mm, foot.sample.normal);
+    return dot(before, foot.sample.normal) < kTurned ||
+           distance(foot.at_mm, hint.at_mm) > kSameFoot + kSlides * distance(p, hint.from_mm);
+}
+
 // The material according to the brick around a point. If that brick is air or does not exist, one given brick
 // is used instead, so that a point far from the surface still has a distance.
 class NearBrick final : public contact::DistanceField {
@@ -340,6 +349,12 @@ std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint&
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
     const std::optional<contact::Foot> near = follow(p, hint);
     const contact::Foot foot = near ? *near : search_nearest(p, within_mm, hint);
+    // The margin was proven for all but the place of the hint, which is one of the others after a leap.
+    if (foot.found && hint.others_mm > 0 && !(hint.proved_at_mm == p) && has_leapt(foot, p, hint)) {
+        const double last = distance(hint.from_mm, hint.at_mm) - distance(p, hint.from_mm);
+        hint.others_mm = std::max(0.0, std::min(hint.others_mm - distance(p, hint.proved_at_mm), last));
+        hint.proved_at_mm = p;
+    }
     if (foot.found) {
         hint.at_mm = foot.at_mm;
         hint.from_mm = p;

@@ -102,6 +102,15 @@ double FieldQuery::clear_way_mm(Vec3 p, double enough_mm) const {
     return exact(ref, p, true).distance_mm;
 }
 
+ShapeId FieldQuery::emptied_by(Vec3 p, double skin_mm) const {
+    const BrickCoord b = brick_at(p);
+    if (!bricks.contains(b)) return 0;
+    const BrickRef ref = bricks.get(b);
+    if (ref == kAir || ref == kUntouched) return 0;
+    const Exact e = exact(ref, p, true);
+    return e.distance_mm >= -skin_mm ? e.shape : 0;
+}
+
 double FieldQuery::clearance_mm(Vec3 p, double enough_mm) const {
     const BrickCoord b = brick_at(p);
     if (!bricks.contains(b)) return blank().distance_mm(p);

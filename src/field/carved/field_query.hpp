@@ -88,6 +88,9 @@ struct FieldQuery {
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
     // grid gives the answer.
     bool is_material(Vec3 point_mm, double skin_mm) const;
+    // Returns a carved shape in which the point lies, or less than skin_mm outside; 0 if none of its brick is
+    // known to be one.
+    ShapeId emptied_by(Vec3 point_mm, double skin_mm) const;
     // Signed like a distance; its size is a lower bound of the distance to any surface. It is at most about
     // `enough_mm`. It is smaller than the true distance where the grid alone gives the side.
     double clear_way_mm(Vec3 point_mm, double enough_mm) const;

@@ -45,6 +45,8 @@ class Shape {
         Vec3 gradient;
     };
     virtual Slope slope(Vec3 point_mm) const { return {distance_mm(point_mm), gradient(point_mm)}; }
+    // True if the solid meets each line along this unit direction in one piece.
+    virtual bool is_whole_along(Vec3 /*direction*/) const { return false; }
     // Computes distance_mm at all nodes in single precision, out[a + 8 b + 64 c]: the same bits on every
     // machine.
     virtual void sample(const Lattice& lattice, float* out) const = 0;

@@ -20,11 +20,12 @@ constexpr double kOtherSide = -0.5;
 // A step that ends this share of its length above the surface has gone over an edge, that far below it into
 // what tells nothing of the surface between.
 constexpr double kOff = 0.5;
-// A step gains at least this share of what its length promises; one over an edge goes no farther than this
-// beyond the probe.
+// A step gains at least this share of what it promises; one over an edge goes no farther than this beyond the
+// probe.
 constexpr double kGain = 0.1, kBeyond = 1.25;
-// A refused step is followed by one of this share, a taken one allows one longer by its inverse.
-constexpr double kShorter = 0.25;
+// A refused step is followed by one of these shares, a taken one allows one longer by the inverse of the
+// first.
+constexpr double kShorter = 0.25, kLittleShorter = 0.75;
 // The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
 constexpr double kTouches = 0.01;
 constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
@@ -33,12 +34,14 @@ constexpr double kStepsHigh = 2;
 // In flight, contact is made where the free ball is smaller than this share of the way to go, and of a ball's
 // radius.
 constexpr double kNear = 0.02, kNearBall = 0.1;
-// A flight along a surface rises by this share of the way to go.
-constexpr double kLift = 0.1;
+// A flight so near to a surface, of a ball's radius, that the probe is not behind rises by this share of the
+// way to go.
+constexpr double kLow = 0.9, kLift = 0.1;
 // At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
 constexpr double kPeek = 1e-5, kGrazing = 0.1;
-// So far a corner is looked into behind its sides, mm.
-constexpr double kLook = 1e-3;
+// So far a corner is looked into behind its sides, mm, where the way between the others goes behind it by at
+// least this share.
+constexpr double kLook = 1e-3, kLeastBehind = 0.01;
 // A step along a corner has left a side, or passed it, by this share of its length.
 constexpr double kLeft = 1e-3;
 // A landing this much (of the step's length) off the trial is looked at again, so often.
@@ -104,7 +107,7 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     }
     last_proxy_ = at_.proxy;
     settled_ = braced_ = moved_ = looked_ = false;
-    last_step_.known = false;
+    side_step_.interrupt();
     stride_mm_ = std::max(stride_mm_, kLowest);
     if (phase_ == Phase::touching && stuck_s_ >= kStuckS) release_stuck_proxy(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
@@ -165,8 +168,8 @@ FieldContact::Next FieldContact::climb() {
 
 // From the anchor straight to the probe, through balls that hold no material.
 FieldContact::Next FieldContact::fly(Vec3 probe) {
-    // Further away a ball's nearest place is not measured.
-    const double near = gap_.radius_mm() > 0 ? kNearBall * gap_.radius_mm() : 1e30;
+    // Further away than its radius a ball's nearest place is not measured.
+    const double unit = gap_.radius_mm() > 0 ? gap_.radius_mm() : 1e30;
     Anchor a = anchor_;
     for (;;) {
         const double way = distance(probe, a.at);
@@ -176,14 +179,15 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
             settled_ = true;
             return Next::nothing;
         }
-        if (a.radius < std::max(kSkin, std::min(kNear * way, near))) {
+        if (a.radius < std::max(kSkin, std::min(kNear * way, kLow * unit))) {
             // A surface that the probe is not behind does not hold it.
             const ProbeGap::Gap g = measure(a.at);
-            if (a.radius < kSkin || dot(probe - a.at, g.normal) < -g.gap_mm) {
+            const bool holds = dot(probe - a.at, g.normal) < -g.gap_mm;
+            if (a.radius < kSkin || (holds && a.radius < kNearBall * unit)) {
                 touch_down(probe, a, g);
                 return Next::more;
             }
-            lift(a, g.normal, kLift * way);
+            if (!holds) lift(a, g.normal, kLift * way);
         }
         anchor_ = a;
         at_.proxy = a.at;
@@ -219,8 +223,7 @@ void FieldContact::touch_down(Vec3 probe, Anchor from, ProbeGap::Gap g) {
     }
     at_ = {};
     at_.proxy = seen_at - g.gap_mm * g.normal;
-    at_.normal = g.normal;
-    at_.ball = g.ball;
+    at_.touch(g);
     at_.sides.put(side_of(g.normal), kOneSide);
     // In a corner the side that was nearest may not be the one that holds.
     if (dot(probe - at_.proxy, g.normal) >= 0 && beyond.gap_mm < 0 &&
@@ -231,13 +234,19 @@ void FieldContact::touch_down(Vec3 probe, Anchor from, ProbeGap::Gap g) {
     if (from.radius > anchor_.radius) anchor_ = from;
     phase_ = Phase::touching;
     sticking_ = true;
-    ease_ = 1;
+    side_step_.reset();
     height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
     stride_mm_ = 1e30;
     moved_ = false;
-    looked_sides_ = 0;
-    last_step_.known = false;
+    looked_sides_ = next_side_ = 0;
     (void)tie(at_);
+}
+
+void FieldContact::Place::touch(const ProbeGap::Gap& seen) {
+    normal = seen.normal;
+    piece = seen.piece;
+    ball = seen.ball;
+    meeting = seen.meeting;
 }
 
 FieldContact::Split FieldContact::split(const Place& place, Vec3 probe) const {
@@ -250,17 +259,16 @@ FieldContact::Split FieldContact::split(const Place& place, Vec3 probe) const {
     return s;
 }
 
-// The step that would settle it, were the surface to bend on as it did over the last step (Barzilai and
-// Borwein 1988).
 Vec3 FieldContact::step_for(const Split& way) {
-    if (last_step_.known) {
-        const Vec3 change = way.rest - last_step_.rest;
-        const double up = -dot(last_step_.way, change), down = squared_length(change);
-        // On a bump that the probe is deeper under than its centre, there is nothing to settle at: away.
-        ease_ = up > 0 && down > 0 ? std::clamp(up / down, 0.01, 8.0) : std::min(2 * ease_, 8.0);
+    side_step_.learn(way.rest);
+    Vec3 step = side_step_.ease() * way.rest;
+    if (at_.sides.count == 1) {
+        const std::span meeting(at_.meeting.normal.data(), at_.meeting.count);
+        step = meeting.empty() ? side_step_.on_side(way.rest, at_.normal)
+                               : side_step_.round_edge(way.rest, meeting, way.press_mm, gap_.radius_mm());
     }
     const double goal = std::max(0.0, 1 - options_.friction_kinetic * way.press_mm / way.rest_mm);
-    return limited(ease_ * goal * way.rest, stride_mm_);
+    return limited(goal * step, stride_mm_);
 }
 
 // Puts a place onto the surface that was seen from it: down to a side that it stands on alone, into the
@@ -281,8 +289,7 @@ bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
         place.proxy = corner.nearest(place.proxy);
     }
     place.sides.put(side_of(seen.normal), kOneSide);
-    place.normal = seen.normal;
-    place.ball = seen.ball;
+    place.touch(seen);
     // What is nearest to a ball in air is so too where it comes down on it.
     place.leap_mm = bends && gap_.radius_mm() > 0 ? std::max(0.0, -seen.gap_mm) : std::abs(seen.gap_mm);
     return bends;
@@ -291,9 +298,19 @@ bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
 // A step along the surface, and down onto it.
 FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to) {
     const double size = length(step);
-    const Vec3 trial = from.proxy + step;
-    ProbeGap::Gap g = measure(trial);
     const bool alone = from.sides.count == 1;
+    Vec3 trial = from.proxy + step;
+    ProbeGap::Gap g = measure(trial);
+    if (alone && g.gap_mm < 0 && g.gap_mm > -kLeap * size && dot(g.normal, from.normal) < kOneSide &&
+        budget(kStepQueries)) {
+        // Hardly below a floor the nearest air may be aside, where a cutter's rim stood for an instant.
+        const Vec3 above = trial - 2 * g.gap_mm * from.normal;
+        const ProbeGap::Gap seen = measure(above);
+        if (dot(seen.normal, from.normal) > kOneSide) {
+            trial = above;
+            g = seen;
+        }
+    }
     const double alike = dot(g.normal, from.normal);
     if (alone && (alike < kOtherSide || (alike > kOneSide && g.gap_mm < -kOff * size))) return Landing::none;
     to = from;
@@ -343,8 +360,7 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
         }
     }
     to.sides.put(side_of(g.normal), kOneSide);
-    to.normal = g.normal;
-    to.ball = g.ball;
+    to.touch(g);
     to.leap_mm = std::abs(g.gap_mm);
     return Landing::on_surface;
 }
@@ -384,20 +400,25 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     return Next::more;
 }
 
-// In a corner, one side after the other, a tick each: where a little way along the others there is no
-// material behind it, it was that of a step too low to hold, or was left.
+// In a corner, one side after the other, a tick each, also while it moves: where a little way along the
+// others there is no material behind it, it was that of a step too low to hold, or was left.
 FieldContact::Next FieldContact::look_behind_a_side() {
     contact::HalfSpaces& sides = at_.sides;
     if (moved_) looked_sides_ = 0;
     if (sides.count < 2 || looked_sides_ >= sides.count) return Next::nothing;
+    const int side = next_side_++ % sides.count;
     contact::HalfSpaces others;
     for (int n = 0; n < sides.count; ++n) {
-        if (n != looked_sides_) others.put(sides.side[static_cast<std::size_t>(n)], kOneSide);
+        if (n != side) others.put(sides.side[static_cast<std::size_t>(n)], kOneSide);
     }
-    const Vec3 along = others.nearest(sides.side[static_cast<std::size_t>(looked_sides_)].normal);
+    const Vec3 along = others.nearest(sides.side[static_cast<std::size_t>(side)].normal);
     ++looked_sides_;
-    if (measure(at_.proxy + kLook * along).gap_mm < -kOff * kLook * length(along)) return Next::nothing;
+    // So deep behind it that is.
+    const double behind = dot(along, sides.side[static_cast<std::size_t>(side)].normal);
+    if (behind < kLeastBehind || measure(at_.proxy + kLook * along).gap_mm < -kOff * kLook * behind)
+        return Next::nothing;
     sides = others;
+    at_.normal = up_from(at_);
     settled_ = false;
     moved_ = true;
     return Next::more;
@@ -416,12 +437,12 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
         const bool more_sides = to.sides.count > at_.sides.count;
         const bool in_corner = more_sides && distance(to.proxy, at_.proxy) <= kSkin;
         const double gain = squared_length(probe - at_.proxy) - squared_length(probe - to.proxy);
-        nearer = gain >= (more_sides ? 0 : kGain * size * way.rest_mm);
+        nearer = gain >= (more_sides ? 0 : kGain * dot(step, way.rest));
         if (in_corner || (nearer && tie(to))) {
-            const bool bends =
-                at_.sides.count == 1 && to.sides.count == 1 && dot(to.normal, at_.normal) > kOneSide;
-            last_step_ = {way.rest, to.proxy - at_.proxy, bends};
-            if (!bends) ease_ = std::min(ease_, 1.0);
+            const bool smooth = at_.sides.count == 1 && to.sides.count == 1 && at_.meeting.count == 0 &&
+                                to.meeting.count == 0 && at_.piece == to.piece &&
+                                dot(to.normal, at_.normal) > kOneSide;
+            side_step_.take(way.rest, to.proxy - at_.proxy, smooth);
             at_ = to;
             moved_ = true;
             stride_mm_ = std::max(stride_mm_, size / kShorter);
@@ -432,10 +453,18 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
         looked_ = true;
         if (push_out()) return Next::more;
     }
-    // Refused: no longer than a chain of free balls came, and a little into what stopped it.
+    // Refused: no longer than a chain of free balls came, and a little into what stopped it; or back from a
+    // place beyond the nearest one, as far as the way is from there.
     const bool stopped = chained_mm_ > kSkin && chained_mm_ < 0.9 * size;
-    stride_mm_ = stopped ? std::min(1.02 * chained_mm_ + kLowest, 0.9 * size) : kShorter * size;
-    last_step_.known = false;
+    const double beyond = nearer ? 0 : -dot(split(to, probe).rest, step) / size;
+    if (stopped) {
+        stride_mm_ = std::min(1.02 * chained_mm_ + kLowest, 0.9 * size);
+    } else if (beyond > 0) {
+        stride_mm_ = std::clamp(size - side_step_.ease() * beyond, kShorter * size, kLittleShorter * size);
+    } else {
+        stride_mm_ = kShorter * size;
+    }
+    side_step_.interrupt();
     if (stride_mm_ >= kSkin) return Next::more;
     // Where the shortest step comes no nearer, the proxy is as near as it can come.
     settled_ = braced_ = !nearer;
@@ -449,8 +478,7 @@ bool FieldContact::push_out() {
         const ProbeGap::Gap g = measure(at_.proxy);
         if (g.gap_mm >= -2 * kSkin) return n > 0;
         at_.proxy -= g.gap_mm * g.normal;
-        at_.normal = g.normal;
-        at_.ball = g.ball;
+        at_.touch(g);
         at_.sides = {};
         at_.sides.put(side_of(g.normal), kOneSide);
     }
@@ -485,7 +513,7 @@ void FieldContact::renew_anchor() {
     const Vec3 up = up_from(at_);
     for (double height = height_; anchor_.radius <= kSkin && height > kSkin && budget(1); height *= 0.25) {
         const Vec3 at = at_.proxy + height * up;
-        const Anchor a{at, clearance_mm(at, height)};
+        const Anchor a{at, clearance_mm(at, height, true)};
         if (a.radius > (1 - kTouches) * height) anchor_ = a;
     }
 }
@@ -516,7 +544,7 @@ bool FieldContact::tie(const Place& to) {
     double height = std::clamp(std::max(kStepsHigh * step, height_), kLowest, kHighest);
     for (int tries = 0; tries < 3 && budget(2); ++tries) {
         const Vec3 at = to.proxy + height * up;
-        const Anchor a{at, clearance_mm(at, height)};
+        const Anchor a{at, clearance_mm(at, height, true)};
         if (reaches_down(a, to.proxy, kTouches * height)) {
             height_ = height;
             return chain(a);

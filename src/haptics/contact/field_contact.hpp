@@ -9,6 +9,7 @@
 #include "contact/distance_field.hpp"
 #include "contact/half_spaces.hpp"
 #include "haptics/contact/probe_gap.hpp"
+#include "haptics/contact/side_step.hpp"
 
 namespace tribo::haptics {
 
@@ -55,7 +56,7 @@ struct ProbeContact {
 // most kMostQueries queries of the field (times the number of balls of a shell).
 class FieldContact {
   public:
-    static constexpr int kMostQueries = 96;
+    static constexpr int kMostQueries = 116;
 
     // `field` must outlive the contact or be replaced.
     explicit FieldContact(const contact::DistanceField& field, const ContactOptions& options = {});
@@ -86,22 +87,24 @@ class FieldContact {
         Vec3 at;
         double radius = 0;
     };
+    // Of the most: kept for the end of a tick, which pushes a proxy out of the material and asks where the
+    // probe is.
+    static constexpr int kEndQueries = 20;
     // A place of the proxy on the surface.
     struct Place {
         Vec3 proxy, normal{0, 0, 1};
         contact::HalfSpaces sides;  // sides that hold the proxy; offsets 0
+        std::uint32_t piece = 0;    // of the surface
         std::size_t ball = 0;       // the ball of the probe that touches
-        double leap_mm = 0;         // correction by the last query
+        ProbeGap::Gap::Meeting meeting;
+        double leap_mm = 0;  // correction by the last query
+
+        void touch(const ProbeGap::Gap& seen);
     };
     // The way from the proxy to the probe, split into a part along the surface and a part into it.
     struct Split {
         Vec3 rest, press;
         double rest_mm = 0, press_mm = 0;
-    };
-    // The last step on a smooth side, and the remaining way before it.
-    struct Step {
-        Vec3 rest, way;
-        bool known = false;
     };
 
     ProbeContact tick(Vec3 probe, bool turned) noexcept;
@@ -127,14 +130,14 @@ class FieldContact {
     bool chain(const Anchor& to);
     bool reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm);
     ProbeContact answer(Vec3 probe);
-    bool budget(int queries) const { return queries_ + queries <= kMostQueries; }
+    bool budget(int queries) const { return queries_ + queries <= kMostQueries - kEndQueries; }
     ProbeGap::Gap measure(Vec3 at) {
         ++queries_;
         return gap_.measure(*field_, at);
     }
-    double clearance_mm(Vec3 at, double enough_mm) {
+    double clearance_mm(Vec3 at, double enough_mm, bool over_touch = false) {
         ++queries_;
-        return gap_.clearance_mm(*field_, at, enough_mm);
+        return gap_.clearance_mm(*field_, at, enough_mm, over_touch);
     }
     double hold() const { return sticking_ ? options_.friction_static : options_.friction_kinetic; }
 
@@ -147,13 +150,14 @@ class FieldContact {
     bool braced_ = false;  // settled between nearly parallel sides, which also hold the remaining way
     bool sticking_ = true;
     bool moved_ = false, looked_ = false;  // in this tick: a step was taken; the place was examined
-    Step last_step_;
-    int looked_sides_ = 0;  // of the corner in which the proxy has settled
+    // Of the corner in which the proxy has settled: how many sides were looked behind there, and which is
+    // next.
+    int looked_sides_ = 0, next_side_ = 0;
     Anchor anchor_;
     double chained_mm_ = 0;  // length of the last chain
     Place at_;               // the contact, tied
     Vec3 last_proxy_;
-    double ease_ = 1;       // step per remaining way along the surface: 1 on a plane, less in a hollow
+    SideStep side_step_;
     double height_ = 0.1;   // of the anchor over the proxy, mm
     double stride_mm_ = 0;  // longest step that is tried
     double stuck_s_ = 0;    // time without motion of the proxy although the probe is in air

@@ -4,7 +4,6 @@
 #include <cassert>
 
 namespace tribo::haptics {
-
 double ProbeGap::set_balls(std::span<const Vec3> offsets_mm) {
     assert(!offsets_mm.empty() && offsets_mm.size() <= kMostBalls);
     double most = 0;
@@ -42,7 +41,12 @@ ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& 
     }
     ball.seen_at = at;
     ball.seen_gap = s.distance_mm - radius_;
-    return {ball.seen_gap, s.normal, s.piece, 0};
+    Gap gap{ball.seen_gap, s.normal, s.piece, 0, {}};
+    if (radius_ > 0 && near.sides.count > 1) {
+        for (int n = 0; n < near.sides.count; ++n)
+            gap.meeting.normal[gap.meeting.count++] = near.sides.side[static_cast<std::size_t>(n)].normal;
+    }
+    return gap;
 }
 
 // The last nearest ball first, then all that might be nearer than what `most` has become.
@@ -70,15 +74,20 @@ ProbeGap::Gap ProbeGap::measure(const contact::DistanceField& field, Vec3 positi
     return least;
 }
 
-double ProbeGap::clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm) {
+double ProbeGap::clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm,
+                              bool over_touch) {
     double least = 1e30;
     nearest_first(position_mm, 1e30, [&](std::size_t n, double) {
         Ball& ball = ball_[n];
         const Vec3 at = position_mm + ball.offset;
         ++queries_;
         double clear = field.clearance_mm(at, enough_mm + radius_) - radius_;
-        if (clear < enough_mm && radius_ > 0)
+        if (clear < enough_mm && radius_ > 0) {
+            // Over a smooth side the last room leads there as fast, and what was proven of its surroundings
+            // is kept.
+            if (over_touch && ball.touch.sides.count > 1) ball.room = ball.touch;
             clear = std::max(clear, measure_ball(field, ball, ball.room, at).gap_mm);
+        }
         if (clear < least) {
             least = clear;
             last_ = n;

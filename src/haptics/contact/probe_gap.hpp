@@ -35,11 +35,20 @@ class ProbeGap {
         Vec3 normal{0, 0, 1};
         std::uint32_t piece = 0;
         std::size_t ball = 0;  // index of the nearest ball
+        // The ball touches an edge or a peak: its centre moves round that, until it lies on one of the sides
+        // that meet there. Empty on a smooth side.
+        struct Meeting {
+            std::array<Vec3, contact::HalfSpaces::kMost> normal;
+            std::size_t count = 0;
+        };
+        Meeting meeting;
     };
     Gap measure(const contact::DistanceField& field, Vec3 position_mm);
     // Distance that the probe can move in any direction without contact, up to about `enough_mm`. 0 or less:
-    // none.
-    double clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm);
+    // none. `over_touch`: the position is over the one that was measured last, so that the same place is
+    // near.
+    double clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm,
+                        bool over_touch = false);
     Vec3 offset_mm(std::size_t ball) const { return ball_[ball].offset; }
     // Queries of the field so far.
     long queries() const { return queries_; }
