@@ -10,6 +10,8 @@
 #include "base/math.hpp"
 #include "field/carved/carved_field.hpp"
 #include "field/shape/box_shape.hpp"
+#include "milling/sweep/sweep.hpp"
+#include "motion/path/program.hpp"
 
 namespace tribo::milling {
 namespace {
@@ -23,23 +25,11 @@ Vec3 point(const CutPose& pose, const ProfilePoint& at, double rotation) {
     return pose.on_axis(at.height_mm) + at.radius_mm * out;
 }
 
-RC_GTEST_PROP(ContactScout, finds_what_a_look_at_every_point_finds, ()) {
-    field::CarvedField stock(std::make_unique<field::BoxShape>(Box3{{0, 0, -10}, {30, 30, 0}}), 0.5);
-    for (int boxes = *rc::gen::inRange(0, 4); boxes > 0; --boxes) {
-        const Vec3 a{in(0, 30), in(0, 30), in(-9, 0)};
-        stock.carve(std::make_unique<field::BoxShape>(Box3{a, a + Vec3{in(1, 20), in(1, 20), 12}}));
-    }
-    Cutter cutter;
-    cutter.kind = *rc::gen::element(CutterKind::flat, CutterKind::ball, CutterKind::bull);
-    cutter.diameter_mm = in(2, 12);
-    cutter.corner_mm = 0.2 * cutter.diameter_mm;
-    cutter.length_mm = 15;
-    const Vec3 axis = normalized({in(-0.5, 0.5), in(-0.5, 0.5), 1});
-    const CutPose pose{{in(3, 27), in(3, 27), in(-6, 0)},
-                       tool_frame(axis, {in(-1, 1), in(-1, 1), in(-0.3, 0.3)}, {1, 0, 0}),
-                       {.across_mm = 1, .down_mm = in(-0.3, 0.3), .turn_x_rad = in(-0.02, 0.02)}};
+// Against a look at every point of the lateral surface up to a height.
+void check(const field::CarvedField& stock, const Cutter& cutter, const CutPose& pose, double height_mm) {
     const CutterProfile profile(cutter);
-    const double s0 = profile.corner_end(), s1 = profile.end();
+    const double s0 = profile.corner_end(), s1 = profile.at_height(std::min(height_mm, cutter.length_mm));
+    if (!(s1 > s0)) return;
     std::vector<MeridianStretch> found;
     ContactScout scout(cutter);
     scout.look(stock, pose, s0, s1, found);
@@ -88,6 +78,57 @@ RC_GTEST_PROP(ContactScout, finds_what_a_look_at_every_point_finds, ()) {
             RC_ASSERT(near);
         }
     }
+}
+
+field::CarvedField block() {
+    return {std::make_unique<field::BoxShape>(Box3{{0, 0, -10}, {30, 30, 0}}), 0.5};
+}
+
+Cutter any_cutter() {
+    Cutter cutter;
+    cutter.kind = *rc::gen::element(CutterKind::flat, CutterKind::ball, CutterKind::bull);
+    cutter.diameter_mm = in(2, 12);
+    cutter.corner_mm = 0.2 * cutter.diameter_mm;
+    cutter.length_mm = 15;
+    return cutter;
+}
+
+CutPose any_pose(Vec3 axis, double turn_rad) {
+    return {{in(3, 27), in(3, 27), in(-6, 0)},
+            tool_frame(axis, {in(-1, 1), in(-1, 1), in(-0.3, 0.3)}, {1, 0, 0}),
+            {.across_mm = 1, .down_mm = in(-0.3, 0.3), .turn_x_rad = turn_rad}};
+}
+
+RC_GTEST_PROP(ContactScout, finds_what_a_look_at_every_point_finds, ()) {
+    field::CarvedField stock = block();
+    for (int boxes = *rc::gen::inRange(0, 4); boxes > 0; --boxes) {
+        const Vec3 a{in(0, 30), in(0, 30), in(-9, 0)};
+        stock.carve(std::make_unique<field::BoxShape>(Box3{a, a + Vec3{in(1, 20), in(1, 20), 12}}));
+    }
+    const Vec3 axis = normalized({in(-0.5, 0.5), in(-0.5, 0.5), 1});
+    check(stock, any_cutter(), any_pose(axis, in(-0.02, 0.02)), 15);
+}
+
+// Earlier passes of the same tool, along the same way and beside it, higher and lower: their walls touch the
+// tool.
+RC_GTEST_PROP(ContactScout, finds_what_a_look_at_every_point_finds_behind_earlier_passes, ()) {
+    field::CarvedField stock = block();
+    const Cutter cutter = any_cutter();
+    const Vec3 axis =
+        *rc::gen::inRange(0, 2) == 0 ? Vec3{0, 0, 1} : normalized({in(-0.5, 0.5), in(-0.5, 0.5), 1});
+    const CutPose pose = any_pose(axis, 0);
+    for (int passes = *rc::gen::inRange(1, 6); passes > 0; --passes) {
+        const bool is_same_way = *rc::gen::inRange(0, 3) > 0;
+        const Vec3 aside = is_same_way ? Vec3{} : in(-6, 6) * pose.frame.y;
+        const Vec3 middle = pose.tip_mm + aside + in(-1, 3) * axis;
+        motion::Move move;
+        move.start = {middle - in(0, 12) * pose.frame.x, axis};
+        move.end = {middle + in(0, 12) * pose.frame.x, axis};
+        if (*rc::gen::inRange(0, 3) == 0)
+            move.quadratic = motion::Quadratic{middle + in(-2, 2) * pose.frame.y + in(-1, 1) * axis, axis};
+        stock.carve(make_sweep(cutter, move));
+    }
+    check(stock, cutter, pose, *rc::gen::inRange(0, 2) == 0 ? 15 : -pose.tip_mm.z / axis.z);
 }
 
 TEST(ContactScout, sees_a_contact_of_a_hundredth_of_a_millimetre_at_the_tip) {

@@ -12,7 +12,9 @@
 #include <rapidcheck/gtest.h>
 
 #include "milling/brute_sweep.hpp"
+#include "milling/sweep/sweep_frames.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
+#include "milling/sweep/upright_curve.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::milling {
@@ -70,8 +72,19 @@ Move any_arc() {
     return m;
 }
 
+// A piece of a helix.
+Move any_upright_curve(double share = 1) {
+    const Vec3 axis = direction(), bend = 0.05 * vector(1);
+    Move m = straight_move(vector(20), axis, number(0.3, share * 10) * direction());
+    const Vec3 travel = m.end.tip_mm - m.start.tip_mm;
+    m.quadratic = motion::Quadratic{
+        m.start.tip_mm + 0.5 * travel + length(travel) * (bend - dot(bend, axis) * axis), axis};
+    return m;
+}
+
 // As long and as bent as elementary moves come, or less.
 Move any_curved(double share = 1) {
+    if (*rc::gen::inRange(0, 4) == 0) return any_upright_curve(share);
     const Vec3 axis = direction();
     const double turn = share * number(0, 0.3);
     Move m;
@@ -286,6 +299,68 @@ RC_GTEST_PROP(Sweep, kernels_for_old_and_new_processors_give_the_same_bits, ()) 
     RC_ASSERT(same());
 }
 
+// No instant of a thousand comes nearer than the one that is found, which is as near as it says.
+RC_GTEST_PROP(UprightCurve, finds_the_nearest_instant, ()) {
+    Cutter cutter = any_cutter();
+    cutter.kind = *rc::gen::element(CutterKind::flat, CutterKind::ball);
+    const ToolProfile tool(cutter);
+    Move move = any_upright_curve();
+    // Bends as sharp as those of a bore that is hardly wider than its cutter.
+    const Vec3 middle = 0.5 * (move.start.tip_mm + move.end.tip_mm);
+    move.quadratic->tip_control_mm += number(0, 3) * (move.quadratic->tip_control_mm - middle);
+    const CurvedLine line = curved_line(move);
+    const auto curve = UprightCurve::of(tool, line);
+    RC_ASSERT(curve.has_value());
+    const Vec3 axis = move.start.axis;
+    const auto at = [&](Vec3 p, double t) {
+        const Vec3 d = p - t * (line.tip1 + t * line.tip2);
+        const double z = dot(d, axis), rho = length(d - z * axis);
+        return cutter.kind == CutterKind::ball
+                   ? std::hypot(rho, std::min(z - tool.radius_mm, 0.0)) - tool.radius_mm
+                   : std::max(rho - tool.radius_mm, -z);
+    };
+    for (int n = 0; n < 20; ++n) {
+        const Vec3 p = vector(10);
+        const auto near = curve->nearest(p);
+        if (!near) continue;
+        RC_ASSERT(near->t >= 0 && near->t <= 1);
+        RC_ASSERT(std::abs(at(p, near->t) - near->distance_mm) < 1e-9);
+        for (int k = 0; k <= 1000; ++k) RC_ASSERT(at(p, k / 1000.0) > near->distance_mm - 1e-9);
+        RC_ASSERT(std::abs(curve->lowest_mm(p) -
+                           std::min(dot(p, axis), dot(p - line.tip1 - line.tip2, axis))) < 1e-9);
+    }
+}
+
+TEST(UprightCurve, is_none_of_a_turning_axis_an_uneven_rise_or_a_bull_nose) {
+    const ToolProfile flat{Cutter{}};
+    EXPECT_TRUE(UprightCurve::of(flat, {{4, 0, 1}, {0, 0.1, 0}, {0, 0, 1}, {}, {}}));
+    EXPECT_FALSE(UprightCurve::of(flat, {{4, 0, 1}, {0, 0.1, 0.1}, {0, 0, 1}, {}, {}}));
+    EXPECT_FALSE(UprightCurve::of(flat, {{4, 0, 1}, {0, 0.1, 0}, {0, 0, 1}, {0.1, 0, 0}, {}}));
+    EXPECT_FALSE(UprightCurve::of(ToolProfile{Cutter{.kind = CutterKind::bull, .corner_mm = 1}},
+                                  {{4, 0, 1}, {0, 0.1, 0}, {0, 0, 1}, {}, {}}));
+}
+
+// Who looks along the tool asks only for the ends of a line.
+RC_GTEST_PROP(Sweep, meets_each_line_along_its_axis_in_one_piece, ()) {
+    Move move = *rc::gen::inRange(0, 2) == 0 ? any_straight() : any_arc();
+    const Vec3 axis = move.start.axis;
+    if (!move.arc && *rc::gen::inRange(0, 2) == 0)
+        move.quadratic = motion::Quadratic{0.5 * (move.start.tip_mm + move.end.tip_mm) + vector(1), axis};
+    const auto sweep = make_sweep(any_cutter(), move);
+    RC_ASSERT(sweep->is_whole_along(axis));
+    const Vec3 from = (move.arc ? move.arc->centre_mm : move.start.tip_mm) + vector(8) - 12 * axis;
+    constexpr double kSure = 1e-4;
+    int borders = 0;
+    bool inside = false;
+    for (int n = 0; n < 600; ++n) {
+        const double d = sweep->distance_mm(from + 0.1 * n * axis);
+        if (std::abs(d) < kSure || (d < 0) == inside) continue;
+        inside = d < 0;
+        ++borders;
+    }
+    RC_ASSERT(borders <= 2);
+}
+
 RC_GTEST_PROP(Sweep, gradient_points_where_the_distance_grows, ()) {
     const Cutter c = any_cutter();
     const Move m = any_move();
@@ -318,6 +393,13 @@ TEST(Sweep, of_a_flat_plunge_has_a_level_gradient_at_its_wall) {
         const Vec3 floor{1 + 10 * share(random), 2 + 5.9 * (share(random) - 0.5), 3 - off};
         ASSERT_LT(length(level->gradient(floor) - Vec3{0, 0, -1}), 1e-3) << n;
     }
+}
+
+TEST(Sweep, that_turns_is_not_sure_of_lines) {
+    Move move = straight_move({0, 0, 0}, {0, 0, 1}, {5, 0, 0});
+    EXPECT_TRUE(make_sweep({}, move)->is_whole_along({0, 0, 1}));
+    move.end.axis = normalized({0.1, 0, 1});
+    EXPECT_FALSE(make_sweep({}, move)->is_whole_along({0, 0, 1}));
 }
 
 TEST(Sweep, of_a_reversed_move_is_the_same_volume) {

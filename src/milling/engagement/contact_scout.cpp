@@ -57,6 +57,49 @@ void ContactScout::set_windows(const CutPose& pose) {
     }
 }
 
+// On a cylinder: drops the cells that an earlier cut is proven to have emptied, as the walls of a slot that
+// goes down in layers, which no clear way can prove. Where both ends of a column lie in one cut, all between
+// does.
+void ContactScout::drop_emptied_cells(const field::CarvedView& stock, const CutPose& pose) {
+    constexpr int kMostLooks = 3;  // for cuts one below the other, or for one below the blank's top
+    const auto rows = static_cast<int>(windows_.size());
+    const double radius = profile_.at(middle(0)).radius_mm;
+    std::uint64_t outward = 0;
+    for (const std::uint64_t window : windows_) outward |= window;
+    // The cut of the column before, and its lowest row there: most often they are those of the next column.
+    const field::Shape* cut = nullptr;
+    int lowest = 0;
+    for (int column = 0; column < kColumns; ++column) {
+        const std::uint64_t bit = std::uint64_t{1} << column;
+        if ((outward & bit) == 0) continue;
+        const AxisCircle around{{}, radius * pose.frame.x, radius * pose.frame.y, radius};
+        const Vec3 side = around.at_place(2 * column + 1);
+        const auto place = [&](int row) { return pose.on_axis(profile_.at(middle(row)).height_mm) + side; };
+        const auto lies_in_cut = [&](int row) { return cut->distance_below(place(row), kSkin) < kSkin; };
+        int end = rows;
+        for (int look = 0; look < kMostLooks && end > 0; ++look) {
+            if (cut == nullptr || !lies_in_cut(end - 1)) cut = stock.emptied_by(place(end - 1), kSkin);
+            if (cut == nullptr) {
+                end /= 2;
+                continue;
+            }
+            if (!cut->is_whole_along(pose.frame.z)) {
+                cut = nullptr;
+                break;
+            }
+            int below = -1, first = end - 1;
+            if (lowest < first) (lies_in_cut(lowest) ? first : below) = lowest;
+            if (first == lowest && first > 0 && !lies_in_cut(first - 1)) below = first - 1;
+            while (first - below > 1) {
+                const int half = (below + first) / 2;
+                (lies_in_cut(half) ? first : below) = half;
+            }
+            for (int row = first; row < end; ++row) windows_[static_cast<std::size_t>(row)] &= ~bit;
+            end = lowest = first;
+        }
+    }
+}
+
 // Looks beside the middle of a cell that is wide, as a face mill has them.
 bool ContactScout::meets(const field::CarvedView& stock, const AxisCircle& circle, int column,
                          double clear_mm) const {
@@ -130,6 +173,8 @@ void ContactScout::look(const field::CarvedView& stock, const CutPose& pose, dou
     set_rows(s0, s1, stock.field().cell_mm());
     set_windows(pose);
     const std::size_t rows = windows_.size();
+    const bool is_cylinder = profile_.parts().empty() && profile_.is_straight(s0);
+    if (is_cylinder && radius_mm_ * kColumnRad <= kWidestColumnMm) drop_emptied_cells(stock, pose);
     engaged_.assign(rows, 0);
     search(stock, pose, {0, static_cast<int>(rows), 0, kColumns});
     for (std::size_t n = 0; n < rows; ++n) {

@@ -40,6 +40,7 @@ class ContactScout {
     };
     void set_rows(double s0, double s1, double cell);
     void set_windows(const CutPose& pose);
+    void drop_emptied_cells(const field::CarvedView& stock, const CutPose& pose);
     void search(const field::CarvedView& stock, const CutPose& pose, Patch patch);
     bool meets(const field::CarvedView& stock, const AxisCircle& circle, int column, double clear_mm) const;
     double middle(int row) const {

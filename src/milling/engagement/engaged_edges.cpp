@@ -15,6 +15,9 @@ constexpr double kEvenPitchRad = 1e-9;   // pitch angles closer than this to eve
 constexpr double kNarrowestRad = 1e-12;  // narrower windows have a negligible force
 constexpr std::size_t kUsualPieces = 64;
 constexpr std::size_t kUsualPiecesPerFlute = 16;
+// A step of a corner over which the window's border turns by more is divided, into so many pieces at most.
+constexpr double kWindowStepRad = 0.1;
+constexpr int kMostPieces = 8;
 constexpr double kAlways = -2, kFull = 2;  // bounds of sin phi that exclude nothing
 
 // Chip thickness of one point over the rotation: slope sin(phi + shift) + base, slope >= 0. All chips of one
@@ -135,18 +138,30 @@ void EngagedEdges::add_lateral(Part part, const ToolTravel& feed) {
     }
     const double kappa0 = math::acos(std::clamp(1 - z0 / corner_, -1.0, 1.0));
     const double kappa1 = math::acos(std::clamp(1 - z1 / corner_, -1.0, 1.0));
-    const int steps = feed.down_mm == 0 && !feed.turns()
-                          ? 1
-                          : std::max(1, static_cast<int>(std::ceil((kappa1 - kappa0) / kKappaStepRad)));
-    for (int n = 0; n < steps; ++n) {
-        const double low = kappa0 + (kappa1 - kappa0) * n / steps;
-        const double high = kappa0 + (kappa1 - kappa0) * (n + 1) / steps;
-        part.edge.z0_mm = n == 0 ? z0 : corner_ * (1 - math::cos(low));
-        part.edge.z1_mm = n + 1 == steps ? z1 : corner_ * (1 - math::cos(high));
+    const bool alike = feed.down_mm == 0 && !feed.turns();
+    const int steps = alike ? 1 : std::max(1, static_cast<int>(std::ceil((kappa1 - kappa0) / kKappaStepRad)));
+    const auto at = [&](double kappa) {
         double s, c;
-        math::sincos(0.5 * (low + high), s, c);
-        part.at = {radius_ - corner_ + corner_ * s, corner_ * (1 - c), s, c};
-        add_teeth(part, feed);
+        math::sincos(kappa, s, c);
+        return ProfilePoint{radius_ - corner_ + corner_ * s, corner_ * (1 - c), s, c};
+    };
+    // The rotation at which the chip begins.
+    const auto begin = [&](double kappa) {
+        return math::asin(std::clamp(line_of(normal_travel(feed, at(kappa))).lowest_sine(), -1.0, 1.0));
+    };
+    for (int n = 0; n < steps; ++n) {
+        const double from = kappa0 + (kappa1 - kappa0) * n / steps;
+        const double to = kappa0 + (kappa1 - kappa0) * (n + 1) / steps;
+        // Where the chip comes to nothing along the step, the edge force ends at once.
+        const double change = alike ? 0 : std::abs(begin(to) - begin(from));
+        const int pieces = std::clamp(static_cast<int>(std::ceil(change / kWindowStepRad)), 1, kMostPieces);
+        for (int k = 0; k < pieces; ++k) {
+            const double low = from + (to - from) * k / pieces, high = from + (to - from) * (k + 1) / pieces;
+            part.edge.z0_mm = n == 0 && k == 0 ? z0 : corner_ * (1 - math::cos(low));
+            part.edge.z1_mm = n + 1 == steps && k + 1 == pieces ? z1 : corner_ * (1 - math::cos(high));
+            part.at = at(0.5 * (low + high));
+            add_teeth(part, feed);
+        }
     }
 }
 

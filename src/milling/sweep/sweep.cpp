@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "base/math.hpp"
 #include "base/simd.hpp"
@@ -11,6 +12,7 @@
 #include "milling/sweep/sweep_frames.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
 #include "milling/sweep/sweep_lines.hpp"
+#include "milling/sweep/upright_curve.hpp"
 #include "motion/path/program.hpp"
 
 namespace tribo::milling {
@@ -39,6 +41,11 @@ auto by_kind(CutterKind kind, const F& f) {
             break;
     }
     return f.template operator()<CutterKind::flat>();
+}
+
+bool are_parallel(Vec3 a, Vec3 b) {
+    constexpr double kSine = 1e-12;
+    return squared_length(cross(a, b)) <= kSine * kSine * squared_length(a) * squared_length(b);
 }
 
 // The gradient of the distance of the profile by rho and by z: a unit vector.
@@ -114,6 +121,9 @@ class StraightSweep final : public field::Shape {
         });
     }
 
+    // It is convex.
+    bool is_whole_along(Vec3 /*direction*/) const override { return true; }
+
     Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
 
     Slope slope(Vec3 point) const override {
@@ -165,6 +175,9 @@ class ArcSweep final : public field::Shape {
                        [&]<CutterKind kind>() { return arc_distance<kind>(p, a, q.x, q.y, q.z); });
     }
 
+    // Each instant of the tool holds a line along its axis from its bottom up to the common cap.
+    bool is_whole_along(Vec3 direction) const override { return are_parallel(direction, path_.frame.z); }
+
     Vec3 gradient(Vec3 point) const override {
         const Vec3 q = path_.frame.into(point - path_.centre);
         const Vec3 radial = Vec3{q.x, q.y, 0} - path_.nearest(q);
@@ -196,6 +209,7 @@ class CurvedSweep final : public field::Shape {
           start_(move.start.tip_mm),
           line_(curved_line(move)),
           instants_(line_),
+          upright_(UprightCurve::of(tool_, line_)),
           box_(curved_box({tool_.radius_mm, tool_.length_mm}, line_, start_)) {}
 
     Box3 bounds_mm() const override { return box_; }
@@ -208,11 +222,15 @@ class CurvedSweep final : public field::Shape {
             // On a grid that is coarse beside the moves a brick has hundreds of shapes, most of them far. At
             // an edge the mitred distance is at most the square root of 2 shorter than the distance.
             if (beyond(box_, point) > 1.4143 * std::max(bound, 0.0)) return bound;
-            const Profile<double> p(tool_);
-            const double least =
-                by_kind(tool_.kind, [&]<CutterKind kind>() { return curved_bound<kind>(p, line_, d); });
-            if (least >= bound) return bound;
+            if (!upright_) {
+                const Profile<double> p(tool_);
+                const double least =
+                    by_kind(tool_.kind, [&]<CutterKind kind>() { return curved_bound<kind>(p, line_, d); });
+                if (least >= bound) return bound;
+            }
         }
+        if (const auto near = upright_nearest(d))
+            return std::max(near->distance_mm, upright_->lowest_mm(d) - tool_.length_mm);
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         return std::max(nearest(floors, d, bound).distance,
@@ -221,10 +239,20 @@ class CurvedSweep final : public field::Shape {
 
     bool is_searched() const override { return true; }
 
+    bool is_whole_along(Vec3 direction) const override {
+        constexpr double kStill = 1e-12;  // rad
+        return line_.bounds.turn <= kStill && are_parallel(direction, line_.axis0);
+    }
+
     Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
 
     Slope slope(Vec3 point) const override {
         const Vec3 d = point - start_;
+        if (const auto near = upright_nearest(d)) {
+            const double cap = upright_->lowest_mm(d) - tool_.length_mm;
+            if (cap > near->distance_mm) return {cap, axis_at(line_, 0)};
+            return {near->distance_mm, swept_normal(tool_, view(line_, d, near->t), near->t)};
+        }
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         const Least<double> least = nearest(floors, d, kNever);
@@ -262,11 +290,15 @@ class CurvedSweep final : public field::Shape {
         return by_kind(tool_.kind,
                        [&]<CutterKind kind>() { return curved_nearest<kind>(p, line_, floors, d, bound); });
     }
+    std::optional<UprightCurve::Nearest> upright_nearest(Vec3 d) const {
+        return upright_ ? upright_->nearest(d) : std::nullopt;
+    }
 
     ToolProfile tool_;
     Vec3 start_;
     CurvedLine line_;
     CurvedInstants instants_;
+    std::optional<UprightCurve> upright_;
     Box3 box_;
 };
 

@@ -16,9 +16,10 @@ namespace tribo::milling {
 //   - straight moves with one axis, in any direction to it (flat and ball in closed form; a ramping
 //     bull-nose cutter by the search below), and
 //   - arcs of at most half a turn about a line parallel to the axis, without rise.
-// If tip or axis runs along a quadratic, or if the axis turns, the nearest instant is found by search. The
-// error at the surface is at most 0.1 um for pieces as motion::to_elementary cuts them, up to 30 degrees of
-// turn and 10 mm of travel. The search itself is proven to 0.01 um (sweep_search.inl); the rest is the error
+// If tip or axis runs along a quadratic, or if the axis turns, the nearest instant is found by search (on a
+// piece of a helix, for flat and ball, by the zero of a convex function: upright_curve.hpp). The error at the
+// surface is at most 0.1 um for pieces as motion::to_elementary cuts them, up to 30 degrees of turn and 10 mm
+// of travel. The search itself is proven to 0.01 um (sweep_search.inl); the rest is the error
 // of the quadratic that approximates an even turn. A cutter with a profile (profile_sweep.hpp) is the union
 // of its convex zones; the error includes 0.03 um of tangents in place of a hollow arc. The cap of a curved
 // sweep is the highest position of the top of the tool. Other moves are not elementary; do not pass them
