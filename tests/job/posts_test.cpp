@@ -33,6 +33,7 @@ std::string control_of(const std::string& name) {
                                                       {"renishaw", "Fanuc"},
                                                       {"yasnac", "Fanuc"},
                                                       {"edge", "Fanuc"},
+                                                      {"denford", "Fanuc"},
                                                       {"five", "Fanuc"},
                                                       {"mach3", "LinuxCNC"},
                                                       {"grbl", "LinuxCNC"},
@@ -71,6 +72,7 @@ TEST(Posts, of_each_control_read) {
         {"num_1060.xpi", 2 * (35 + 5 * M_PI / 2 + 15) + (5 + 2) + (5 + 4) + 2 * 10 + 10},
         {"fagor_rpt.pim", 3 * (std::hypot(5, 1) + 1) + 5 * M_PI},
         {"nci_mastercam.nci", 4 + 40 + 5 * M_PI + 20},
+        {"denford.fnc", 4 + 20 + 5 * M_PI + 3 + 15},
     };
     int count = 0;
     for (const auto& entry :

@@ -24,6 +24,7 @@ TEST(Dialect, IsToldByWhatOnlyOneControlWrites) {
         {"o<pocket1> sub\n", Dialect::linuxcnc},
         {"o<cycle81> call [1]\n", Dialect::linuxcnc},
         {"DPRNT[POCKET DONE]\n", Dialect::fanuc},
+        {"[BILLET X10 Y10 Z5\nG1 X1\n", Dialect::fanuc},
         // LinuxCNC refuses a cycle without R.
         {"G0 Z5\nG98 G81 Z-3 F100\nX10\n", Dialect::fanuc},
         {"G0 Z5\nG83 X1 Z-3 Q1 F100 (no R)\nG81 Z-3 R1\n", Dialect::fanuc},

@@ -65,6 +65,27 @@ TEST(MillWarnings, a_tooth_that_takes_too_much_is_told_with_how_much) {
         << warnings[0].text;
 }
 
+// Edges of 4 mm cut a tunnel 4 mm below the top; pulled up, the tool's back removes what lies above it.
+TEST(MillWarnings, metal_that_no_edge_cuts_is_told_with_its_line) {
+    const milling::Cutter cutter{.diameter_mm = 6, .length_mm = 4};
+    MillSetup s = block_setup({{0, 0, -10}, {20, 20, 0}}, cutter, 0.1);
+    const double feed = 0.05 * cutter.flutes * 6000;
+    motion::Move tunnel = straight_cut({-5, 10, -8}, {10, 10, -8}, feed);
+    motion::Move up = straight_cut({10, 10, -8}, {10, 10, -5}, feed);
+    tunnel.line = 3;
+    up.line = 4;
+    add_cut(s, tunnel);
+    add_cut(s, up);
+    MillSession session(std::move(s), serial_for);
+    session.run({});
+    EXPECT_NEAR(session.totals().edgeless_mm3, math::kTwoPi / 2 * 9 * 3, 1);
+    EXPECT_EQ(session.totals().edgeless_line, 4);
+    const Warnings warnings = warnings_of(session.totals(), "a.toml", "a.nc");
+    ASSERT_EQ(warnings.size(), 1u);
+    EXPECT_EQ(warnings[0].line, 4);
+    EXPECT_NE(warnings[0].text.find("no edge cuts 85 mm3 of it"), std::string::npos) << warnings[0].text;
+}
+
 // The limits are 0.01 mm and, of this cutter, 0.15 mm. 0.01 is less than itself in a frame's precision.
 TEST(MillWarnings, a_chip_near_a_limit_is_told_alike_in_the_warning_and_on_the_page) {
     for (const double feed_mm : {0.0099999, 0.01, 0.0100001, 0.1499999, 0.15, 0.1500001}) {

@@ -47,6 +47,7 @@ constexpr std::array kSigns{
     Sign{"G54.1P", Dialect::fanuc},        Sign{"]DO", Dialect::fanuc},
     Sign{"]THEN", Dialect::fanuc},         Sign{"G65P", Dialect::fanuc},
     Sign{"#3000=", Dialect::fanuc},        Sign{"M98<", Dialect::fanuc},
+    Sign{"[BILLET", Dialect::fanuc},       Sign{"[TOOLDEF", Dialect::fanuc},
 };
 
 // Beginnings of a Siemens block, behind its number. A bracket behind a digit is taken for a comment.

@@ -7,9 +7,11 @@
 #include <utility>
 #include <vector>
 
+#include "base/limits.hpp"
 #include "readers/control/dialect.hpp"
 #include "readers/gcode/calls.hpp"
 #include "readers/gcode/command.hpp"
+#include "readers/gcode/denford.hpp"
 #include "readers/gcode/flow.hpp"
 #include "readers/gcode/modes.hpp"
 #include "readers/gcode/motion/compensation.hpp"
@@ -42,13 +44,17 @@ class ProgramReader {
         state_.unit_is_of_texts = options.dialect == GcodeDialect::fanuc && is_in_inches_by_texts(bytes);
         state_.unit_mm = mm_per(state_.unit_is_of_texts ? LengthUnit::inch : options.default_unit);
         state_.retract_to_r = options.dialect == GcodeDialect::linuxcnc;
-        if (!writes_tool_vectors(bytes)) return;
+        const ToolVectors vectors = tool_vectors_of(bytes);
+        if (vectors == ToolVectors::none) return;
         state_.rotary.vectors = state_.rotary.by_length_code = true;
         state_.rotary.tip_control = output_.machine.has_value();
-        output_.warn(
-            0,
-            "I, J and K beside G0 and G1 have the length 1: they are taken as the tool's axis, from the "
-            "tip to the shank, as with G43.5");
+        state_.rotary.vectors_to_tip = vectors == ToolVectors::to_tip;
+        output_.warn(0,
+                     state_.rotary.vectors_to_tip
+                         ? "I, J and K beside G0 and G1 have the length 1, and K is never above 0: they are "
+                           "taken as the tool's axis, from the shank to the tip"
+                         : "I, J and K beside G0 and G1 have the length 1: they are taken as the tool's "
+                           "axis, from the tip to the shank, as with G43.5");
     }
 
     Result<motion::Program> read() {
@@ -114,14 +120,24 @@ class ProgramReader {
         }
         const bool changes_tool = std::ranges::any_of(
             block.words, [](const Word& word) { return word.letter == 'M' && word.value == 6; });
-        for (const std::string_view comment : block.comments)
-            output_.notes.read(comment, block.line, changes_tool);
+        const auto called = std::ranges::find(block.words, 'T', &Word::letter);
+        const bool only_calls =
+            !changes_tool && called != block.words.end() && kLimits.tool_number.range.contains(called->value);
+        for (const std::string_view comment : block.comments) {
+            output_.notes.read(comment, block.line, changes_tool,
+                               only_calls ? std::optional(static_cast<int>(called->value)) : std::nullopt);
+        }
         note_writing(block, output_);
         if (block.deletable && output_.options.skip_deletable_blocks) {
             if (output_.first(Note::deletable_blocks)) {
                 output_.warn(block.line,
                              "blocks that start with '/' are skipped, as with block delete switched on");
             }
+            return true;
+        }
+        if (block.setting.starts_with('[')) {
+            if (auto done = take_denford_line(block, state_, output_); !done)
+                return std::unexpected(done.error());
             return true;
         }
         if (!block.setting.empty()) {
@@ -300,6 +316,10 @@ class ProgramReader {
         return !(stop && (stop->tenths == 20 || stop->tenths == 300));
     }
 
+    bool goes_on_behind_end() const {
+        return lexer_.place().rest().find_first_not_of("% \t\v\f\r\n") != std::string_view::npos;
+    }
+
     Result<motion::Program> finish(int last_line) {
         motion::Program& program = output_.program;
         if (state_.nurbs.runs && !state_.nurbs.has_knots) {
@@ -316,11 +336,14 @@ class ProgramReader {
         }
         if (auto done = end_compensation(state_, output_); !done) return std::unexpected(done.error());
         if (!has_words_) {
+            if (has_percent_ && goes_on_behind_end()) {
+                return output_.refuse(last_line, 1, "the program ends with this '%', before any G-code",
+                                      "delete the line");
+            }
             return output_.refuse(0, 0, "no G-code in this file", "check that it is the right one");
         }
-        const std::string_view rest = lexer_.place().rest();
         // Behind the end stand the programs that were called.
-        if (!flow_.has_called() && rest.find_first_not_of("% \t\v\f\r\n") != std::string_view::npos) {
+        if (!flow_.has_called() && goes_on_behind_end()) {
             output_.warn(last_line, "what follows the end of the program is not read");
         }
         if (output_.machine) {
@@ -329,9 +352,12 @@ class ProgramReader {
             }
         }
         output_.finish();
+        declare_billet(state_, output_);
         note_lathe(state_, output_);
         note_least_increments(state_, output_);
         if (output_.moves == 0) output_.warn(0, "the program moves no tool");
+        if (output_.moves > 0 && !output_.feeds && state_.feed)
+            output_.warn(0, "all moves are rapids (G0), though F states a feed: a G1 may be missing");
         program.tools = output_.notes.tools(state_.unit_mm, program.source, program.warnings);
         return std::move(program);
     }

@@ -35,7 +35,10 @@ motion::Move turned(const motion::Move& move, double degrees) {
 Result<void> Output::append(const motion::Move& move) {
     if (moves >= options.max_moves) return refuse_more_moves(move.line);
     ++moves;
-    if (move.kind == motion::MoveKind::feed) notes.cut(move);
+    if (move.kind == motion::MoveKind::feed) {
+        notes.cut(move);
+        feeds = true;
+    }
     if (sink_ != nullptr) {
         sink_->take(move);
     } else {

@@ -110,6 +110,7 @@ struct RotaryState {
     bool tip_control = false;     // coordinates are those of the tip in the stock, not those of the machine
     bool by_length_code = false;  // switched on by G43.4 or its like; G49 ends it
     bool vectors = false;         // I J K of a line are the tool axis (G43.5)
+    bool vectors_to_tip = false;  // from the shank
     std::array<Vec3, kAllWorkSystems> origin_rad{};
 
     // Tool axis when vectors are read without a machine.
@@ -182,6 +183,12 @@ struct OpenPocket {
     control::Ring contour;
 };
 
+// As written, in the unit of the program.
+struct Billet {
+    Vec3 size, corner;
+    int line = 0;  // 0: none
+};
+
 struct State {
     int line = 0;  // of the running block
     double unit_mm = 1;
@@ -227,6 +234,7 @@ struct State {
     // move to coordinates: on Fanuc controls work systems are stated from the zero of the machine, and the
     // stock is taken to stand at the one in which the program begins.
     std::optional<Vec3> stock_at_mm;
+    Billet billet;   // of Denford's mills
     Vec3 preset_mm;  // of G92 and G52
     bool preset_on = true;
     std::optional<TiltedPlane> tilt;
@@ -364,6 +372,7 @@ class Output {
     const GcodeOptions& options;
     motion::Program program;
     std::size_t moves = 0;              // so far
+    bool feeds = false;                 // one of them is at feed
     std::string_view text;              // of the program
     std::optional<MachineRun> machine;  // absent: a machine of three axes
     ToolNotes notes;                    // tools in comments

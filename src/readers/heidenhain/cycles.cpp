@@ -136,7 +136,7 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
             return define_old_cycle(in, number, part);
         case 7:
         case 10:
-            return set_datum(in);
+            return set_datum(in, part);
         case 8:
             return part == 0 ? Result<void>{} : mirror(in);
         case 11:

@@ -218,8 +218,12 @@ Result<void> Interpreter::leave_out_program(std::string name) {
     return {};
 }
 
+std::unexpected<Error> Interpreter::refuse_behind_label(const LineReader& in, int column) const {
+    return in.refuse(column, "this does not belong behind CALL LBL", "write REP and a number, or nothing");
+}
+
 // CALL LBL 1 runs to LBL 0 and returns, also as CALL LBL 1 REP (old controls). CALL LBL 1 REP 2 repeats the
-// lines from the label to here twice.
+// lines from the label to here twice; so do REP 2/2, where the control counts, and REPQ5.
 Result<void> Interpreter::call(LineReader& in) {
     const int column = in.column();
     if (in.take("PGM") || in.take("SELECTED")) {
@@ -231,12 +235,18 @@ Result<void> Interpreter::call(LineReader& in) {
     }
     const auto label = in.label();
     if (!label) return std::unexpected(label.error());
-    if (in.take("REP") && !in.at_end()) {
+    const int behind = in.column();
+    const bool repeats = in.take("REP") || in.take_before_parameter("REP");
+    if (repeats && !in.at_end()) {
         const auto count = in.number();
         if (!count) return std::unexpected(count.error());
+        if (*count && in.take('/')) {
+            if (const auto left = in.number(); !left) return std::unexpected(left.error());
+        }
         if (!*count || **count < 0 || **count > static_cast<double>(kMostRepeats)) {
             return in.refuse(column, "REP without a number of repeats", "write REP and a whole number");
         }
+        if (!in.at_end()) return refuse_behind_label(in, in.column());
         const auto left = repeats_.try_emplace(at_, static_cast<long>(**count)).first;
         if (left->second == 0) {
             repeats_.erase(left);
@@ -245,6 +255,7 @@ Result<void> Interpreter::call(LineReader& in) {
         --left->second;
         return go_to(*label, column);
     }
+    if (!in.at_end()) return refuse_behind_label(in, behind);
     if (calls_.size() >= kDeepestCalls) {
         return in.refuse(column, "subprograms are nested too deeply", "correct the calls");
     }

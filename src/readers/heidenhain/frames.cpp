@@ -14,8 +14,8 @@ constexpr Range kScale{1e-3, 1e3};
 }  // namespace
 
 // CYCL DEF 7.1 X+10 (datum shift, one axis per line), CYCL DEF 7.1 #2 (a row of the datum table) and
-// CYCL DEF 10.1 ROT+30.
-Result<void> Interpreter::set_datum(LineReader& in) {
+// CYCL DEF 10.1 ROT+30. Part 0 is the title.
+Result<void> Interpreter::set_datum(LineReader& in, int part) {
     if (in.take('#')) {
         const int column = in.column();
         const auto row = in.number();
@@ -49,8 +49,8 @@ Result<void> Interpreter::set_datum(LineReader& in) {
             shift_mm_[static_cast<int>(axis)] = *item.value * unit_mm_;
         } else if (axis < 3 && item.value && item.name.size() == 2 && item.name[0] == 'I') {
             shift_mm_[static_cast<int>(axis)] += *item.value * unit_mm_;
-        } else if (item.value) {
-            return in.refuse(item.column, "only X, Y, Z and ROT are read here",
+        } else if (item.value || part > 0) {
+            return in.refuse(item.column, "only X, Y, Z and ROT with a number are read here",
                              "write the shift with X, Y and Z");
         }
     }
@@ -120,7 +120,7 @@ Result<void> Interpreter::transform(LineReader& in) {
             set_frame();
             return {};
         }
-        if (in.take("AXIS")) return set_datum(in);
+        if (in.take("AXIS")) return set_datum(in, 1);
         return in.refuse(in.column(), "only TRANS DATUM AXIS is read", "write the axes' shifts");
     }
     if (in.take("MIRROR")) {
@@ -128,7 +128,7 @@ Result<void> Interpreter::transform(LineReader& in) {
         return mirror(in);
     }
     if (in.take("ROTATION")) {
-        if (!in.take("RESET")) return set_datum(in);
+        if (!in.take("RESET")) return set_datum(in, 1);
         if (auto done = close_contour(); !done) return done;
         rotation_deg_ = 0;
         set_frame();

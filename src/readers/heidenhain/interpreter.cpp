@@ -18,6 +18,14 @@ constexpr int kLargestTool = 32'767;  // of a tool table (TNC 640, Conversationa
 constexpr std::string_view kSilentBlocks[] = {"OPEN",       "CLOSE", "SEL", "CONTOUR",
                                               "MONITORING", "COUNT", "AFC", "SECTION"};
 
+// A block of one line, not a list of parameters: a comment behind it may go on in the next line.
+bool is_statement(std::string_view text) {
+    constexpr std::string_view begins[] = {"Q", "FN", "L ", "C ", "CC", "CR", "CT", "LP", "CP", "CALL LBL"};
+    return std::ranges::any_of(begins, [&](std::string_view begin) {
+        return std::ranges::equal(text.substr(0, begin.size()), begin, {}, to_upper);
+    });
+}
+
 // BEGIN PGM NAME MM, in upper case.
 std::string name_of_program(std::string_view text) {
     text = trimmed(text.substr(std::min<std::size_t>(text.find_first_of("mM") + 1, text.size())));
@@ -60,9 +68,13 @@ Interpreter::Interpreter(std::string_view bytes, const GcodeOptions& options, Mo
 }
 
 Result<motion::Program> Interpreter::run() {
+    parameters_.take_unset();  // of the search for labels and tools
     for (; at_ < lines_.size() && !ended_; ++at_) {
-        if (auto done = run_line(); !done && !goes_on_after(done.error()))
-            return std::unexpected(done.error());
+        const auto done = run_line();
+        for (const int index : parameters_.take_unset()) {
+            path_.warn(line_.number, Parameters::name(index) + " has no value so far: 0 is taken");
+        }
+        if (!done && !goes_on_after(done.error())) return std::unexpected(done.error());
     }
     auto program = finish();
     if (!program) goes_on_after(program.error());
@@ -77,6 +89,10 @@ Result<void> Interpreter::run_line() {
     if (line_.text[0] == '/' && path_.options.skip_deletable_blocks) {
         if (path_.first(kSkipped)) path_.warn(line_.number, "blocks that begin with '/' are skipped");
         return skip_text();
+    }
+    if (line_.comment_goes_on && is_statement(line_.text)) {
+        for (Line rest = line_; rest.goes_on && at_ + 1 < lines_.size(); rest = line_at(at_)) ++at_;
+        line_.goes_on = false;
     }
     LineReader in(line_, source_name_, parameters_);
     return execute(in);

@@ -120,6 +120,7 @@ class Interpreter {
     Result<void> call_program(std::string name);
     Result<void> leave_out_program(std::string name);
     Result<void> end_label();
+    std::unexpected<Error> refuse_behind_label(const LineReader& in, int column) const;
     void end_program();
     std::string label_key(const std::string& label, std::size_t line) const;
     Result<void> go_to(const std::string& label, int column);
@@ -128,6 +129,7 @@ class Interpreter {
     Result<void> blank_form(LineReader& in);
     Result<void> define_tool(LineReader& in);
     Result<void> call_tool(LineReader& in);
+    void put_tool(int number);
     void number_tools();
     int number_of_tool(const std::string& name);
     void read_notes(std::string_view line);
@@ -202,7 +204,7 @@ class Interpreter {
     Result<void> run_free_blocks(const std::vector<FreeBlock>& blocks, const std::vector<FreePiece>& pieces);
 
     // Frames (frames.cpp, planes.cpp)
-    Result<void> set_datum(LineReader& in);
+    Result<void> set_datum(LineReader& in, int part);
     Result<void> mirror(LineReader& in);
     Result<void> set_scale(LineReader& in, int number);
     Result<void> transform(LineReader& in);

@@ -33,6 +33,7 @@ Line line_of(std::string_view text, int number) {
         if (whole[i] == '"') quoted = !quoted;
         if (whole[i] != ';' || quoted) continue;
         whole = whole.substr(0, i);
+        line.comment_goes_on = line.goes_on;
         break;
     }
     // A block number is digits and a blank; some training systems write an N before them.
@@ -78,6 +79,20 @@ bool LineReader::take(std::string_view word) {
     const std::size_t after = at_ + word.size();
     if (is_word(word.back()) && after < line_.text.size() && is_word(line_.text[after])) return false;
     at_ = after;
+    return true;
+}
+
+bool LineReader::take_before_parameter(std::string_view word) {
+    skip_blanks();
+    const std::string_view rest = line_.text.substr(at_);
+    const std::size_t size = word.size();
+    if (rest.size() < size + 2 || to_upper(rest[size]) != 'Q') return false;
+    const char kind = to_upper(rest[size + 1]);
+    if (!is_digit(kind) && kind != 'L' && kind != 'R') return false;
+    for (std::size_t i = 0; i < size; ++i) {
+        if (to_upper(rest[i]) != word[i]) return false;
+    }
+    at_ += size;
     return true;
 }
 
@@ -191,9 +206,14 @@ Result<std::optional<double>> LineReader::number() {
             return refuse(first_column, Parameters::name(**q) + " holds a value that only the machine knows",
                           **q == kRadiusParameter
                               ? "give the tool's diameter to the job, or write TOOL DEF with its radius R"
-                              : "set it in the program, for example " + Parameters::name(**q) + " = 5");
+                              : "set it in the program, for example " + Parameters::name(**q) +
+                                    " = 5; where it is the radius of a tool, give the tool to the job, or "
+                                    "describe it in a comment");
         }
-        if (peek() != '=') return sign * parameters_.get(**q);
+        if (peek() != '=') {
+            parameters_.note_read(**q);
+            return sign * parameters_.get(**q);
+        }
         at_ = start;  // Q200=2 of a cycle is a separate word
         return std::nullopt;
     }
@@ -278,7 +298,7 @@ Result<std::optional<Item>> LineReader::item() {
         const auto value = number();
         if (!value) return std::unexpected(value.error());
         if (!*value) return refuse(column(), "a parameter without a value", "write a number after '='");
-        item.value = **value;
+        item.value = *value;
         return item;
     }
     const auto value = number();

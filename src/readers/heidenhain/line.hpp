@@ -17,9 +17,10 @@ namespace tribo::readers::heidenhain {
 // A line without its block number and comment.
 struct Line {
     std::string_view text;
-    int number = 0;        // from 1
-    int column = 1;        // of the first character of `text`
-    bool goes_on = false;  // ends with '~': the next line belongs to it
+    int number = 0;                // from 1
+    int column = 1;                // of the first character of `text`
+    bool goes_on = false;          // ends with '~': the next line belongs to it
+    bool comment_goes_on = false;  // this '~' stands in a comment
 };
 
 // Returns the line as a block.
@@ -45,6 +46,8 @@ class LineReader {
     int column();
     // Takes the word (upper case) if it is next and no letter or digit follows it directly.
     bool take(std::string_view word);
+    // The same if the name of a parameter follows directly: REPQ5.
+    bool take_before_parameter(std::string_view word);
     bool take(char character);
     // Reads a number with an optional sign, or a Q parameter.
     Result<std::optional<double>> number();

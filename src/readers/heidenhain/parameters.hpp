@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tribo::readers::heidenhain {
 
@@ -22,10 +24,20 @@ class Parameters {
     void set(int index, double value) {
         values_[static_cast<std::size_t>(index)] = value;
         unknown_.reset(static_cast<std::size_t>(index));
+        set_.set(static_cast<std::size_t>(index));
     }
     // Marks a value that only the machine knows.
     void forget(int index) { unknown_.set(static_cast<std::size_t>(index)); }
     bool knows(int index) const { return !unknown_[static_cast<std::size_t>(index)]; }
+    // Call it where the program reads a value. Keeps the parameters that hold none, each once.
+    void note_read(int index) const {
+        const auto n = static_cast<std::size_t>(index);
+        if (set_[n] || unset_[n]) return;
+        unset_.set(n);
+        read_unset_.push_back(index);
+    }
+    // Returns the parameters without a value that were read since the last call.
+    std::vector<int> take_unset() const { return std::exchange(read_unset_, {}); }
 
     static std::string name(int index) {
         return index >= kRemanent ? "QR" + std::to_string(index - kRemanent)
@@ -37,7 +49,9 @@ class Parameters {
 
   private:
     std::array<double, kParameters> values_{};
-    std::bitset<kParameters> unknown_;
+    std::bitset<kParameters> unknown_, set_;
+    mutable std::bitset<kParameters> unset_;  // and read
+    mutable std::vector<int> read_unset_;
 };
 
 }  // namespace tribo::readers::heidenhain

@@ -132,35 +132,42 @@ int Interpreter::number_of_tool(const std::string& name) {
     return number;
 }
 
-// The comment of a line, or a heading `* - TEXT`, may describe a tool.
+// The comment of a line, a heading `* - TEXT`, or a line in parentheses may describe a tool.
 void Interpreter::read_notes(std::string_view line) {
     const std::size_t from = line.find(';');
     if (from != std::string_view::npos) path_.notes.read(line.substr(from + 1), line_.number);
-    if (line_.text.starts_with('*')) path_.notes.read(line_.text.substr(1), line_.number);
+    if (line_.text.starts_with('*') || line_.text.starts_with('('))
+        path_.notes.read(line_.text.substr(1), line_.number);
+}
+
+// Changes the tool. Q108 holds its radius from then on.
+void Interpreter::put_tool(int number) {
+    path_.change_tool(number);
+    tool_oversize_mm_ = 0;
+    if (const auto radius = path_.tool_radius_mm(unit_mm_)) {
+        parameters_.set(kRadiusParameter, *radius / unit_mm_);
+    } else {
+        parameters_.forget(kRadiusParameter);
+    }
 }
 
 // TOOL CALL 5 Z S2000 F500 DL+0 DR+0
 Result<void> Interpreter::call_tool(LineReader& in) {
     std::vector<Item> items;
     if (auto done = close_contour(); !done) return done;
+    const int first = in.column();
+    const auto number = in.number();  // maybe in a Q parameter
+    if (!number) return std::unexpected(number.error());
+    if (*number && **number != 0) {
+        if (auto good = in.in_range(kLimits.tool_number, **number, first); !good) return good;
+    }
+    if (*number) put_tool(static_cast<int>(**number));
     if (auto done = all_items(in, items); !done) return done;
     const Item* feed_per = nullptr;  // FU or FZ, which need the speed
     for (std::size_t i = 0; i < items.size(); ++i) {
         const Item& item = items[i];
-        const bool names_tool = i == 0 && (item.name.empty() || item.name.starts_with('"'));
-        if (names_tool) {
-            if (item.name.empty() && *item.value != 0) {
-                if (auto good = in.in_range(kLimits.tool_number, *item.value, item.column); !good)
-                    return good;
-            }
-            path_.change_tool(item.name.empty() ? static_cast<int>(*item.value)
-                                                : number_of_tool(item.name.substr(1)));
-            tool_oversize_mm_ = 0;
-            if (const auto radius = path_.tool_radius_mm(unit_mm_)) {
-                parameters_.set(kRadiusParameter, *radius / unit_mm_);
-            } else {
-                parameters_.forget(kRadiusParameter);
-            }
+        if (i == 0 && !*number && item.name.starts_with('"')) {
+            put_tool(number_of_tool(item.name.substr(1)));
         } else if ((item.name == "X" || item.name == "Y") && !item.value) {
             return in.refuse(item.column, "a tool along " + item.name + " is not read",
                              "write TOOL CALL ... Z");

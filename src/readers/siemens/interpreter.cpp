@@ -54,7 +54,14 @@ Result<void> Interpreter::run_lines(std::size_t begin, std::size_t end) {
     at_ = begin;
     while (at_ >= begin && at_ < end && !ended_ && !returned_) {
         jumped_ = false;
-        if (auto done = run_line(); !done && !goes_on_after(done.error())) return done;
+        const int line = line_number();
+        auto done = run_line();
+        for (const int number : variables_.take_unset_r()) {
+            path_.warn(line, "R" + std::to_string(number) +
+                                 " has no value so far: 0 is taken; a control keeps the one of the program "
+                                 "before");
+        }
+        if (!done && !goes_on_after(done.error())) return done;
         if (!jumped_) ++at_;
     }
     return {};

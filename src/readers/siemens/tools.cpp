@@ -160,19 +160,22 @@ Result<void> Interpreter::declare_stock(const Call& call) {
     constexpr double kAbsolute = 112;
     constexpr std::size_t kZ0 = 5, kZ1 = 6, kX0 = 8;
     if (call.given.empty()) return {};
-    const bool is_box = call.text(3) == "BOX" && call.at(4) == kAbsolute && call.has(kZ1);
+    // 0: the far corner counts from the near one.
+    const bool is_absolute = call.at(4) == kAbsolute;
+    const bool is_box = call.text(3) == "BOX" && (is_absolute || call.at(4) == 0) && call.has(kZ1);
     Box3 box;
     if (is_box) {
         for (const std::size_t corner : {std::size_t{0}, std::size_t{1}}) {
-            const Vec3 point{call.at(kX0 + 2 * corner), call.at(kX0 + 1 + 2 * corner),
-                             call.at(corner == 0 ? kZ0 : kZ1)};
+            Vec3 point{call.at(kX0 + 2 * corner), call.at(kX0 + 1 + 2 * corner),
+                       call.at(corner == 0 ? kZ0 : kZ1)};
+            if (corner == 1 && !is_absolute) point += Vec3{call.at(kX0), call.at(kX0 + 1), call.at(kZ0)};
             box.include(unit_mm_ * point);
         }
     }
     if (!is_box || !(box.volume() > 0)) {
         if (path_.first(kOtherStock))
             path_.warn(call.line,
-                       "this WORKPIECE is no box of absolute corners: the stock is taken from the job");
+                       "this WORKPIECE is no box whose corners are read: the stock is taken from the job");
         return {};
     }
     path_.program.stock = motion::DeclaredStock{box, call.line};

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -28,10 +29,14 @@ class Variables {
   public:
     static constexpr int kMostR = 10'000;  // R0 to R9999
 
-    double r(int number) const {
+    double r(int number) {
         const auto found = r_.find(number);
-        return found == r_.end() ? 0 : found->second;
+        if (found != r_.end()) return found->second;
+        if (unset_r_.size() < kMostUnset && unset_r_.insert(number).second) read_unset_r_.push_back(number);
+        return 0;
     }
+    // Returns the R parameters without a value that were read since the last call, each once.
+    std::vector<int> take_unset_r() { return std::exchange(read_unset_r_, {}); }
     void set_r(int number, double value) { r_[number] = value; }
 
     // Names are in upper case. The innermost program's come first; null: there is none.
@@ -66,7 +71,11 @@ class Variables {
   private:
     static constexpr std::size_t kMostElements = 1'000'000;
 
+    static constexpr std::size_t kMostUnset = 1000;
+
     std::map<int, double> r_;
+    std::set<int> unset_r_;  // and read
+    std::vector<int> read_unset_r_;
     std::vector<std::map<std::string, Variable>> levels_{1};
     std::size_t elements_ = 0;
 };

@@ -20,6 +20,8 @@ constexpr double kDrillPoint = 118, kRightPoint = 90, kEngraverPoint = 60;
 constexpr double kTaperEdge = 3;
 // A corner that exceeds the radius by less is rounding of the text, mm.
 constexpr double kCornerSlack = 0.003;
+// Z10 in the name of a drill is a size of its holder.
+constexpr int kMostFlutesOfDrill = 4;
 
 void add(std::string& remark, const std::string& text) {
     remark += (remark.empty() ? "" : "; ") + text;
@@ -171,7 +173,10 @@ bool set_shape(motion::DeclaredTool& tool, ToolSizes sizes, std::string& remark)
     sizes.corner_mm = std::min(sizes.corner_mm, 0.5 * sizes.diameter_mm);
     tool.diameter_mm = sizes.diameter_mm;
     tool.corner_mm = sizes.corner_mm;
-    tool.flutes = sizes.flutes > 0 && kLimits.flutes.range.contains(sizes.flutes) ? sizes.flutes : 0;
+    const bool is_drill = sizes.shape == ToolShape::drill || sizes.shape == ToolShape::spot_drill;
+    const bool has_flutes =
+        kLimits.flutes.range.contains(sizes.flutes) && !(is_drill && sizes.flutes > kMostFlutesOfDrill);
+    tool.flutes = sizes.flutes > 0 && has_flutes ? sizes.flutes : 0;
     if (kLimits.cutting_length.range.contains(sizes.edge_mm)) tool.edge_mm = sizes.edge_mm;
     const bool has_angle = sizes.point_deg > 0 || sizes.taper_deg > 0;
     if (has_angle && (sizes.shape == ToolShape::unstated || sizes.shape == ToolShape::flat))

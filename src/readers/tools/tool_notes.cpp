@@ -71,7 +71,7 @@ ToolSizes sizes_of(const ToolText& text, double unit_mm) {
     return sizes;
 }
 
-void ToolNotes::read(std::string_view text, int line, bool is_beside_change) {
+void ToolNotes::read(std::string_view text, int line, bool is_beside_change, std::optional<int> called_tool) {
     const auto at = static_cast<std::size_t>(std::max(line, 0));
     if (at >= lines_.size()) lines_.resize(at + 1);
     if (std::exchange(line_, line) != line) {
@@ -81,17 +81,18 @@ void ToolNotes::read(std::string_view text, int line, bool is_beside_change) {
     }
     if (is_read_) return;
     for (const std::string_view part : texts_of_tools(text))
-        is_taken_ = take(part, line, is_beside_change) || is_taken_;
+        is_taken_ = take(part, line, is_beside_change, called_tool) || is_taken_;
 }
 
 // Returns true if the text is about a tool.
-bool ToolNotes::take(std::string_view text, int line, bool is_name) {
+bool ToolNotes::take(std::string_view text, int line, bool is_name, std::optional<int> called_tool) {
     Note note{read_tool_text(text, is_name), line};
     ToolText& tool = note.text;
     if (largest_number_ && tool.number > largest_number_) {
         tool.number.reset();
         tool.names_tool = true;
     }
+    if (!tool.number && tool.names_tool && tool.diameter) tool.number = called_tool;
     // A line may hold several comments: the first one about a tool counts, and those with numbers.
     if (is_taken_ && !(tool.number && tool.diameter)) return false;
     if (tool.is_bare_size) {
@@ -118,6 +119,16 @@ bool ToolNotes::take(std::string_view text, int line, bool is_name) {
         } else {
             pending_ = note;
         }
+        return true;
+    }
+    // Lines right behind each other that describe several tools are a list: none of them is the next tool's.
+    const bool is_next = pending_ && note.line == pending_->line + 1 && pending_->text.describes_tool();
+    const bool begins_list =
+        is_next && tool.describes_tool() &&
+        (tool.shape != pending_->text.shape || !are_same(*tool.diameter, *pending_->text.diameter));
+    if (begins_list || (tool.describes_tool() && note.line == list_line_ + 1)) {
+        list_line_ = note.line;
+        pending_.reset();
         return true;
     }
     // Two shapes are two tools.
@@ -191,6 +202,7 @@ void ToolNotes::name(int number, std::string_view name, int line) {
 
 void ToolNotes::change(int tool) {
     is_empty_ = tool == 0;
+    empties_ = is_empty_ && has_changed_;
     window_has_note_ = false;
     if (is_empty_) {
         window_tool_.reset();
@@ -218,6 +230,7 @@ void ToolNotes::cut(const motion::Move& move) {
         const bool is_along = is_straight && length(cross(way, move.start.axis)) < aside;
         (is_along ? use.drills : use.mills) = true;
     }
+    if (empties_ && cuts_empty_line_ == 0) cuts_empty_line_ = move.line;
     window_tool_.reset();
     if (std::exchange(is_empty_, false) && pending_ && pending_->text.describes_tool()) {
         attach(0, *pending_);
@@ -321,6 +334,11 @@ std::vector<motion::DeclaredTool> ToolNotes::tools(double unit_of_program_mm, co
     }
     if (!has_changed_ && pending_ && pending_->text.describes_tool() && !index_.contains(0))
         declare(0, *pending_);
+    if (cuts_empty_line_ != 0 && !index_.contains(0)) {
+        warnings.push_back({source, cuts_empty_line_,
+                            "T0 has put the tool away, and a feed move follows: it is milled all the same, "
+                            "as if a tool were in the spindle"});
+    }
     std::set<int> said;
     for (const Conflict& conflict : conflicts_) {
         if (!said.insert(conflict.tool).second) continue;

@@ -26,8 +26,10 @@ class ToolNotes {
     // Larger numbers in texts are those of a tool library: they name no tool of the program.
     void number_up_to(int largest) { largest_number_ = largest; }
     // Reads a comment, a message or the name of a tool; each line once, though a loop may run it again.
-    // `is_beside_change`: it stands in the block that changes the tool, and so names it.
-    void read(std::string_view text, int line, bool is_beside_change = false);
+    // `is_beside_change`: it stands in the block that changes the tool, and so names it. `called_tool`: the
+    // block only calls this tool, for a change that comes; a size in it is that tool's.
+    void read(std::string_view text, int line, bool is_beside_change = false,
+              std::optional<int> called_tool = std::nullopt);
     // Reads the name under which a program calls tool `number`: a text about that name describes it, else the
     // name itself.
     void name(int number, std::string_view name, int line);
@@ -66,7 +68,7 @@ class ToolNotes {
         int tool = 0;
         Note first, second;
     };
-    bool take(std::string_view text, int line, bool is_name);
+    bool take(std::string_view text, int line, bool is_name, std::optional<int> called_tool);
     bool take_of_library(const Note& note);
     void put_library_texts();
     void attach(int tool, const Note& note);
@@ -93,10 +95,13 @@ class ToolNotes {
     std::map<int, Use> uses_;
     std::optional<int> largest_number_;
     std::optional<Note> pending_;     // about the next tool
+    int list_line_ = -2;              // the last line of a list of tools without numbers
     std::optional<int> window_tool_;  // changed and has not cut yet
     bool window_has_note_ = false;
     bool is_empty_ = false;  // T0 is in the spindle: a tool of that number, if it cuts, else none
     bool has_changed_ = false;
+    bool empties_ = false;       // T0 has put away a tool
+    int cuts_empty_line_ = 0;    // of the first feed move after that; 0: none
     bool expects_size_ = false;  // "Tool Size" stood before
 };
 

@@ -50,6 +50,8 @@ constexpr std::array kOffsetWords{"COMP"sv, "COMPENSATION"sv, "OFFSET"sv, "REGIS
 // Nouns of tools that are verbs, too.
 constexpr std::array kWork{"DRILL"sv, "MILL"sv, "TAP"sv, "TURN"sv, "PROBE"sv, "COUNTERBORE"sv};
 constexpr int kMostFlutesInText = 24;
+// Less is the width of a chamfer: CHAMFER MILL .010.
+constexpr double kLeastChamferMill = 0.06;
 constexpr std::array kParallelPipes{"G"sv, "R"sv, "RP"sv, "BSP"sv, "BSPP"sv};
 constexpr std::array kTaperPipes{"NPT"sv, "NPTF"sv, "BSPT"sv, "RC"sv};
 // Threads in an inch: 10-24 TAP.
@@ -97,7 +99,8 @@ class TextReader {
     ToolText read() {
         if (read_cut_viewer()) return tool_;
         if (tokens_.size() == 1 && tokens_[0].is_number() && !tokens_[0].is_angle) {
-            tool_.is_bare_size = tokens_[0].value > 0;
+            // "711951" is an article's number.
+            tool_.is_bare_size = tokens_[0].value > 0 && !(is_name_ && tokens_[0].value > kLargestWholeMm);
             if (tool_.is_bare_size) set_diameter(tokens_[0], Plainness::size);
             return tool_;
         }
@@ -559,6 +562,8 @@ class TextReader {
             tool_.corner.reset();
         }
         if (tool_.shape == ToolShape::tap && plainness_ == Plainness::size) widen_pipe_thread();
+        const bool is_chamfer = tool_.shape == ToolShape::chamfer && plainness_ == Plainness::size;
+        if (is_chamfer && tool_.diameter->value < kLeastChamferMill) tool_.diameter.reset();
         if (tool_.flutes == 0 && (tool_.names_tool || plainness_ == Plainness::name))
             tool_.flutes = lettered_flutes_;
         const bool says_tool = (is_about_tool_ && (has_diameter_key_ || plainness_ == Plainness::key)) ||

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 
 #include "base/math.hpp"
 #include "milling/engagement/joined_moves.hpp"
@@ -181,10 +182,16 @@ class MillSession::Run {
         const double start = schedule_->moves[move].start_s;
         const double end = std::min(schedule_->moves[next_move_ + last_step - 1].end_s, end_s_);
         const double rpm = setup_.rpm_of_move[move];
+        const auto rows = std::span(machined_.rows).subspan(first, last - first);
+        const bool cuts =
+            std::ranges::any_of(rows, [](const milling::CutRow& row) { return !row.engagement.empty(); });
         for (std::size_t n = step; n < last_step; ++n) {
             if (steps_[n].move->kind != motion::MoveKind::feed) continue;
             totals_.path_mm += motion::path_length_mm(*steps_[n].move);
             totals_.fed_mm3 += machined_.removed_mm3[n];
+            if (cuts || machined_.removed_mm3[n] == 0) continue;
+            if (totals_.edgeless_mm3 == 0) totals_.edgeless_line = steps_[n].move->line;
+            totals_.edgeless_mm3 += machined_.removed_mm3[n];
         }
         std::size_t at = step;  // step of the current row
         double begun_mm = 0, travelled = 0, row_start = start;

@@ -51,6 +51,10 @@ struct MillTotals : ForceTotals {
     // line.
     double stood_in_mm3 = 0;
     int stood_in_line = 0;
+    // Removed by passes at feed in which no edge cuts, as a tool does that is pulled back with its shank in
+    // the stock; and the first line.
+    double edgeless_mm3 = 0;
+    int edgeless_line = 0;
     // Work of the spindle, and the part from the shear coefficient: ktc times the volume of the chips. The
     // rest comes from the edge coefficients.
     double work_j = 0, shear_work_j = 0;

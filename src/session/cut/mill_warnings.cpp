@@ -10,6 +10,8 @@ namespace {
 
 // A larger deviation of the balance gives a warning.
 constexpr double kBalanced = 0.01;
+// A cause is named where it explains this share of the deviation.
+constexpr double kMostOfIt = 0.8;
 // Every cut begins and ends with thin chips. Rubbing gives a warning from this share of the cutting time on.
 constexpr double kRubbingShare = 0.1;
 // Less is the rounding of a tool that just touches.
@@ -40,10 +42,18 @@ Warnings warnings_of(const MillTotals& totals, const std::string& job, const std
                                 "approach, or give a stock that leaves room for the tool"});
     }
     if (totals.energy_balance && std::abs(*totals.energy_balance - 1) > kBalanced) {
-        warnings.push_back({job, 0,
-                            "the spindle's work is " + rounded(*totals.energy_balance, 1000) +
-                                " of what the metal removed asks for: the force is off by about as much; "
-                                "try a finer --resolution"});
+        const std::string share = "the spindle's work is " + rounded(*totals.energy_balance, 1000) +
+                                  " of what the metal removed asks for: ";
+        const double missing_mm3 = (1 - *totals.energy_balance) * totals.fed_mm3;
+        if (totals.edgeless_mm3 > kMostOfIt * missing_mm3 && missing_mm3 > 0) {
+            warnings.push_back({program, totals.edgeless_line,
+                                share + "no edge cuts " + rounded(totals.edgeless_mm3, 1) +
+                                    " mm3 of it, first here, as when a tool is pulled back with its shank "
+                                    "in the stock; give the true length of its edges"});
+        } else {
+            warnings.push_back(
+                {job, 0, share + "the force is off by about as much; try a finer --resolution"});
+        }
     }
     const milling::ChipFindings& chips = totals.chips;
     if (chips.rubbing_s > kRubbingShare * totals.cutting_s) {

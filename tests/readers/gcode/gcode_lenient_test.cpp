@@ -122,7 +122,7 @@ TEST(GcodeReader, SaysWhatItTakesWhereControlsDiffer) {
         {ready + "G53 G1 Z0\nG1 Z0\nX20\n", 3, "the path is left out", 10},
         {ready + "G28 Z20\nG92 Z0\nG1 X20\n", 4, "the zero of the program is taken to stay", 10},
         {ready + "G28 A0\nG1 X20\n", 0, "", 10},
-        {"G21 M3 F100 (no depth: Z)\nG28\nG1 X10 Y0\nX20\n", 4, "it is taken to start at Z0", 10},
+        {"G21 M3 F100 (no depth: Z)\nG28\nG1 X10 Y0\nX20\n", 4, "the tool is taken to start at Z0", 10},
         {ready + "$H\nG1 X20\n", 4, "it is left out", 0},
         {ready + "G81 X20 Z1 R1\nX30\n", 3, "its holes have no depth", 0},
         {ready + "G28 Z20\nG81 X20 Z-3 R2\nX30\n", 4, "it is left out", 5 + 5},

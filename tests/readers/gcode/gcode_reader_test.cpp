@@ -278,6 +278,51 @@ TEST(GcodeReader, CollectsToolsFromComments) {
     EXPECT_NEAR(program.tools[1].corner_mm, 3.175, 1e-12);
 }
 
+TEST(GcodeReader, KeepsTheCommentBesideACallForTheToolThatIsCalled) {
+    const Program program = program_of(
+        "G21 S9000 M3 F100\nT1 M6 (10 MM END MILL)\nT3 (6 MM BALL MILL)\nG0 X0 Y0 Z0\nG1 X1\nM6\nX2\n");
+    ASSERT_EQ(program.tools.size(), 2U);
+    EXPECT_EQ(program.tools[0].number, 1);
+    EXPECT_NEAR(program.tools[0].diameter_mm, 10, 1e-12);
+    EXPECT_EQ(program.tools[1].number, 3);
+    EXPECT_NEAR(program.tools[1].diameter_mm, 6, 1e-12);
+    EXPECT_NEAR(program.tools[1].corner_mm, 3, 1e-12);
+}
+
+TEST(GcodeReader, SaysWhatAPersonForgot) {
+    const Program rapids = program_of("G21 F100\nG0 X0 Y0 Z5\nZ-3 F20\nX9\n");
+    EXPECT_TRUE(warns_of(rapids, 0, "a G1 may be missing"));
+    EXPECT_FALSE(warns_of(program_of("G21 G0 X0 Y0 Z5\nX9\n"), 0, "a G1 may be missing"));
+    const Program emptied =
+        program_of("G21 M3 F100\nT1 M6 (T1 D=10)\nG0 X0 Y0 Z5\nG1 X9\nT0 M6\nG0 Z9\nG1 X20\nX30\n");
+    EXPECT_TRUE(warns_of(emptied, 7, "T0 has put the tool away"));
+    EXPECT_FALSE(warns_of(program_of("G21 M3 F100\nT1 M6\nG0 X0 Y0 Z5\nG1 X9\nT0 M6\nG0 Z9\n"), 6, "T0"));
+    // CamBam numbers its first tool 0.
+    EXPECT_FALSE(warns_of(program_of("G21 M3 F100\n(T0 : 3.0)\n(T1 : 6.0)\nT1 M6\nG0 X0 Y0 Z5\nG1 X9\n"
+                                     "T0 M6\nG1 X20\n"),
+                          8, "T0"));
+    const auto ends = read_gcode("%NAME\n%Version 1\nG21 G0 X0 Y0 Z0\n", {});
+    ASSERT_FALSE(ends.has_value());
+    EXPECT_EQ(ends.error().line, 2);
+}
+
+// The unit is stated behind the billet.
+TEST(GcodeReader, TakesTheBilletAndTheToolsOfADenfordMill) {
+    const Program program = program_of(
+        "[BILLET X3 Y5 Z.75\n[edgemove x-0.5 y-1\n[TOOLDEF T01 D.5 Z2;\nG20 M3 F10\nT1 M6\nG0 X0 Y0 Z0\nG1 "
+        "X1\n");
+    ASSERT_TRUE(program.stock.has_value());
+    EXPECT_EQ(program.stock->line, 1);
+    expect_near(program.stock->box_mm.min, {-12.7, -25.4, -19.05});
+    expect_near(program.stock->box_mm.max, {63.5, 101.6, 0});
+    ASSERT_EQ(program.tools.size(), 1U);
+    EXPECT_NEAR(program.tools[0].diameter_mm, 12.7, 1e-12);
+    EXPECT_FALSE(read_gcode("[BILLET X1e300 Y5 Z1\nG21 G0 X0 Y0 Z0\n", {}));
+    EXPECT_FALSE(read_gcode("[TOOLDEF D5\nG21 G0 X0 Y0 Z0\n", {}));
+    EXPECT_FALSE(read_gcode("[TOOLDEF T-1 D5\nG21 G0 X0 Y0 Z0\n", {}));
+    EXPECT_FALSE(read_gcode("[EDGEMOVE X5\nG21 G0 X0 Y0 Z0\n", {}));
+}
+
 TEST(GcodeReader, AcceptsModesThatDoNotMoveTheTool) {
     const Program program = program_of(
         "G21 G90 G94 G17 G40 G49 G80 G54 G64 P0.01 Q0.01 G97 G98 G91.1 G15 G69\n"

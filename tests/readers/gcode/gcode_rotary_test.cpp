@@ -84,6 +84,11 @@ TEST(GcodeRotary, TakesVectorsOfLengthOneAsTheToolsAxis) {
     expect_near(program.moves[1].end.axis, normalized(Vec3{-1, 1, 1}), 1e-12);
     expect_near(program.moves[2].end.axis, program.moves[1].end.axis);
     EXPECT_TRUE(warns_of(program, 0, "as with G43.5"));
+    // All of them downwards.
+    const motion::Program down =
+        program_of("G0 X1 Y2 Z3 I0 J0 K-1\nG1 X2 I-0.6 J0 K-0.8 F100\nX3 I-0.6 J0 K-0.8\n");
+    expect_near(down.moves.back().end.axis, {0.6, 0, 0.8});
+    EXPECT_TRUE(warns_of(down, 0, "from the shank to the tip"));
     // Two blocks, another length, an arc, or one of the three missing are no sign.
     for (const char* other : {"G0 X1 Y2 Z3 I0 J0 K1\nG1 X2 I0.6 J0 K0.8 F100\n",
                               "G0 X1 Y2 Z3 I0 J0 K1\nG1 X2 I0.6 J0 K0.8 F100\nX3 I1 J1 K0\n",

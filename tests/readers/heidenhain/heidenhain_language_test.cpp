@@ -109,6 +109,17 @@ TEST(HeidenhainLanguage, LeavesOutTheLinesJoinedToACommentOrASkippedBlock) {
     EXPECT_NEAR(program.moves[1].end.tip_mm.x, 5, 1e-12);
 }
 
+// Behind a statement the comment goes on; behind the parameter of a cycle the list does.
+TEST(HeidenhainLanguage, TakesTheNextLineForTheRestOfAComment) {
+    const motion::Program program = conversational(after_start(
+        "3 Q1 = ( 9 - 5 ) / 2 ; (half of the key ~\n width minus the cutter)\n4 L X+Q1 F100 ; to ~\nthe "
+        "left\n"
+        "5 CYCL DEF 200 ~\n   Q200=2 ;CLEARANCE ~\n   Q201=-5 ;DEPTH ~\n   Q206=100 ~\n   Q202=5 ~\n"
+        "   Q203=0 ~\n   Q204=20\n6 L X+9 FMAX M99\n"));
+    EXPECT_NEAR(program.moves[0].end.tip_mm.x, 2, 1e-12);
+    EXPECT_NEAR(std::ranges::min(heights(program)), -5, 1e-12);
+}
+
 TEST(HeidenhainLanguage, CountsFeedsPerTurn) {
     const motion::Program program = conversational(
         after_start("L X+5 FU0.1\nL X+9 F100\nL X+12 F0.2 M136\nL X+15 F0.2\nL X+20 F300 M137\n"

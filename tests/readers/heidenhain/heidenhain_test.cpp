@@ -155,6 +155,47 @@ TEST(Heidenhain, CallsOnceByRepWithoutANumber) {
     EXPECT_NEAR(feed_mm(program), 4, 1e-12);
 }
 
+TEST(Heidenhain, RepeatsAsOftenAsAParameterBehindRepSays) {
+    for (const char* count : {"REPQ9", "REP Q9", "REP+Q9", "REP 3", "REP3/3", "REP 3/1"}) {
+        const motion::Program program = conversational(
+            after_start("3 Q9 = 3\n4 LBL 1\n5 L IX+2 F100\n6 CALL LBL 1 " + std::string(count) + "\n"));
+        EXPECT_NEAR(feed_mm(program), 4 * 2, 1e-12) << count;
+    }
+    for (const char* rest : {"REPX", "FOO", "REP 2 FOO", "REP Q9 Q8", "5"}) {
+        const auto program = read_heidenhain(
+            after_start("3 Q9 = 3\n4 LBL 1\n5 L IX+2 F100\n6 CALL LBL 1 " + std::string(rest) + "\n"), {});
+        ASSERT_FALSE(program.has_value()) << rest;
+        EXPECT_EQ(program.error().cause, "this does not belong behind CALL LBL") << rest;
+    }
+}
+
+TEST(Heidenhain, CallsTheToolOfAParameter) {
+    const motion::Program program =
+        conversational(after_start("3 Q11 = 32\n4 TOOL CALL Q11 Z S900 F200\n5 L X+5 F AUTO\n"));
+    EXPECT_EQ(program.moves.back().tool, 32);
+    EXPECT_EQ(program.moves.back().feed_mm_per_min, 200);
+    EXPECT_FALSE(read_heidenhain(after_start("3 Q11 = -2\n4 TOOL CALL Q11 Z\n5 L X+5 F100\n"), {}));
+}
+
+TEST(Heidenhain, RefusesADatumThatIsNoNumber) {
+    for (const char* shift : {"Xnan", "Xabc", "X", "DATUM"}) {
+        const auto program = read_heidenhain(after_start("3 CYCL DEF 7.0 ZERO POINT\n4 CYCL DEF 7.1 " +
+                                                         std::string(shift) + "\n5 L X+5 F100\n"),
+                                             {});
+        ASSERT_FALSE(program.has_value()) << shift;
+        EXPECT_NE(program.error().cause.find("with a number"), std::string::npos) << shift;
+    }
+}
+
+TEST(Heidenhain, SaysThatAParameterHasNoValue) {
+    const motion::Program program =
+        conversational(after_start("3 L X+Q55 F100\n4 Q56 = Q57 + 1\n5 L X+Q56\n6 L X+Q55\n"));
+    EXPECT_TRUE(warns_of(program, 4, "Q55 has no value so far: 0 is taken"));
+    EXPECT_TRUE(warns_of(program, 5, "Q57 has no value so far"));
+    EXPECT_FALSE(warns_of(program, 6, "has no value"));
+    EXPECT_FALSE(warns_of(program, 7, "has no value"));
+}
+
 TEST(Heidenhain, TakesTheFeedBehindM128ForThatOfTheRotaryAxes) {
     const motion::Program program =
         conversational(after_start("3 L X+1 F300\n4 L M128 F5000\n5 L X+5\n6 L X+9 F200 M128 FQ8\n"));

@@ -45,11 +45,11 @@ inline void expect_refused_conversational(std::span<const Refusal> refusals) {
     });
 }
 
-inline constexpr std::string_view kStart =
+inline constexpr std::string_view kHeidenhainStart =
     "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z S2000 F500\n2 L X+0 Y+0 Z+10 R0 FMAX M3\n";
 
 inline std::string after_start(std::string_view text) {
-    return std::string(kStart) + std::string(text) + "99 END PGM P MM\n";
+    return std::string(kHeidenhainStart) + std::string(text) + "99 END PGM P MM\n";
 }
 
 inline double length_of(const motion::Program& program, std::size_t move) {

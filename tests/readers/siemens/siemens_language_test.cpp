@@ -89,7 +89,7 @@ TEST(SiemensLanguage, StructuresAndJumps) {
 }
 
 TEST(SiemensLanguage, ProgramsOfTheFileRunWithTheirParameters) {
-    const std::string text = "%_N_MAIN_MPF\n" + std::string(kStart) +
+    const std::string text = "%_N_MAIN_MPF\n" + std::string(kSiemensStart) +
                              "DEF REAL SUM=1\nLINE(5,2)\nL7 P3\nCALL \"LINE\"\nADD(4,SUM)\nG0 X=SUM\nM30\n"
                              "%_N_LINE_SPF\nPROC LINE(REAL A, INT B=1) SAVE\nG0 X=A*B\nRET\n"
                              "%_N_L7_SPF\nG0 X=IC(1)\nM17\n"
@@ -103,7 +103,7 @@ TEST(SiemensLanguage, ProgramsOfTheFileRunWithTheirParameters) {
 
 TEST(SiemensLanguage, ProgramsTakeArraysAndReturnThem) {
     // The sum of the parts comes back in the first; the second program takes an array of any size.
-    const std::string text = std::string(kStart) +
+    const std::string text = std::string(kSiemensStart) +
                              "DEF REAL P[3]=SET(1,2,4)\nDEF INT Q[2,2]\nSUM(P)\nFILL(Q,5)\n"
                              "G0 X=P[0] Y=P[2] Z=Q[1,1]\nM30\n"
                              "PROC SUM(VAR REAL P[3])\nP[0]=P[0]+P[1]+P[2]\nRET\n"
@@ -111,8 +111,8 @@ TEST(SiemensLanguage, ProgramsTakeArraysAndReturnThem) {
     const auto program = read_siemens(text);
     ASSERT_TRUE(program.has_value()) << program.error().text();
     expect_near(end_of(*program), {7, 4, 5}, 1e-12);
-    EXPECT_FALSE(
-        read_siemens(std::string(kStart) + "DEF REAL P[2]\nSUM(P)\nM30\nPROC SUM(VAR REAL A[3])\nRET\n"));
+    EXPECT_FALSE(read_siemens(std::string(kSiemensStart) +
+                              "DEF REAL P[2]\nSUM(P)\nM30\nPROC SUM(VAR REAL A[3])\nRET\n"));
 }
 
 TEST(SiemensLanguage, LeavesOutProgramsThatAreNotAtHandAndSaysSo) {
@@ -132,6 +132,14 @@ TEST(SiemensLanguage, KeepsWhatOnlyTheMachineKnowsUntilItIsNeeded) {
         EXPECT_EQ(program.error().cause, "only the machine knows this value") << use;
     }
     EXPECT_FALSE(read_siemens("IF $A_IN[1]==1 GOTOF A\nA: G0 X1\n").has_value());
+}
+
+TEST(SiemensLanguage, SaysThatAnRParameterHasNoValue) {
+    const motion::Program program = siemens("TRANS X=R41\nR1=5\nG1 X=R1 F100\nX=R41\nIF R7==0\nX9\nENDIF\n");
+    EXPECT_TRUE(warns_of(program, 4, "R41 has no value so far: 0 is taken"));
+    EXPECT_TRUE(warns_of(program, 8, "R7 has no value so far"));
+    EXPECT_FALSE(warns_of(program, 6, "has no value"));
+    EXPECT_FALSE(warns_of(program, 7, "has no value"));
 }
 
 TEST(SiemensLanguage, EndsEndlessLoops) {

@@ -13,7 +13,7 @@ namespace {
 
 TEST(Siemens, ReadsWordsWithEqualSigns) {
     const auto read = read_siemens(
-        std::string("%_N_PART_MPF\n;$PATH=/_N_WKS_DIR\n") + std::string(kStart) +
+        std::string("%_N_PART_MPF\n;$PATH=/_N_WKS_DIR\n") + std::string(kSiemensStart) +
         "N40 MSG(\"roughing (1)\")\nN50 R1=5\nN55 R2=R1*2\nN60 G1 X=R2 Y=(R1+1)*2 F=500 ; comment\nN70 "
         "STOPRE\n"
         "N80 G2 X20 Y22 CR=10\nN90 G3 X=30 Y=12 I=10 J=0\nN100 G4 F2\nN110 G0 SUPA Z300 D0\nN120 M30\n");
@@ -321,7 +321,7 @@ TEST(Siemens, TurnsTheToolAlongACircleOnAMachine) {
         return m.kind == motion::MoveKind::feed ? distance(m.end.tip_mm, {0, 10, 0}) : 1e9;
     });
     EXPECT_NEAR(motion::angle_rad(middle.end.axis, {0, 0, 1}), 0.5 * std::acos(0.8), 0.02);
-    const auto refused = read_siemens(std::string(kStart) + text, {});
+    const auto refused = read_siemens(std::string(kSiemensStart) + text, {});
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().text().find("the tool turns along a circle"), std::string::npos);
 }
@@ -367,7 +367,13 @@ TEST(Siemens, TakesTheStockAndTheTextsOfToolsFromTheProgram) {
     ASSERT_TRUE(program.stock);
     EXPECT_EQ(program.stock->box_mm.min, (Vec3{-10, 0, -20}));
     EXPECT_EQ(program.stock->box_mm.max, (Vec3{40, 30, 2}));
-    EXPECT_FALSE(siemens("WORKPIECE(,\"\",,\"BOX\",0,2,-30,-80,-2,-2,184,170)\nG1 X5 F9\n").stock);
+    // The far corner counted from the near one.
+    const motion::Program counted =
+        siemens("WORKPIECE(,\"\",,\"BOX\",0,2,-30,-80,-2,-3,184,170)\nG1 X5 F9\n");
+    ASSERT_TRUE(counted.stock.has_value());
+    expect_near(counted.stock->box_mm.min, {-2, -3, -28});
+    expect_near(counted.stock->box_mm.max, {182, 167, 2});
+    EXPECT_FALSE(siemens("WORKPIECE(,\"\",,\"BOX\",16,2,-30,-80,-2,-2,184,170)\nG1 X5 F9\n").stock);
     const motion::Program compensated = siemens(head + "F100\nG1 G41 X10 Y10\nY50\nG40 X0\n");
     EXPECT_NEAR(feed_mm(compensated), std::hypot(7, 10) + 40 + 7, 1e-9);
 }
@@ -421,7 +427,7 @@ TEST(Siemens, PassesOverWhatMovesNothing) {
 }
 
 TEST(Siemens, RefusesWithPlaceCauseAndRemedy) {
-    const std::string start(kStart);
+    const std::string start(kSiemensStart);
     const std::vector<Refusal> refusals = {
         {start + "G33 Z-5 K1\n", 4, 1, "G33 (threads of a lathe)"},
         {start + "G77\n", 4, 1, "G77 is not known"},

@@ -12,12 +12,12 @@
 namespace tribo::readers {
 
 // Three lines: a known place above the zero, with spindle and tool.
-inline constexpr std::string_view kStart =
+inline constexpr std::string_view kSiemensStart =
     "N10 G71 G90 G17 G54 G64\nN20 T1 D1 M6\nN30 G0 X0 Y0 Z10 S3000 M3\n";
 
-// The program of `text` behind kStart.
+// The program of `text` behind kSiemensStart.
 inline motion::Program siemens(std::string_view text, const GcodeOptions& options = {}) {
-    const auto program = read_siemens(std::string(kStart) + std::string(text), options);
+    const auto program = read_siemens(std::string(kSiemensStart) + std::string(text), options);
     if (!program) {
         ADD_FAILURE() << program.error().text() << "\nin:\n" << text;
         return {};

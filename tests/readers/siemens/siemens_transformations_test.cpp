@@ -23,7 +23,7 @@ std::string fault(std::string_view text, const char* name = nullptr) {
     GcodeOptions options;
     options.source_name = "p.mpf";
     options.machine = name == nullptr ? nullptr : &machine;
-    const auto program = read_siemens(std::string(kStart) + std::string(text), options);
+    const auto program = read_siemens(std::string(kSiemensStart) + std::string(text), options);
     return program ? "" : program.error().text();
 }
 

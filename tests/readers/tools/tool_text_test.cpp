@@ -238,8 +238,13 @@ TEST(ToolText, takes_a_bare_number_beside_the_noun_in_the_name_of_a_tool) {
         EXPECT_EQ(tool.diameter->value, c.diameter) << c.name;
     }
     EXPECT_EQ(read_tool_text("FRAESER_D6_R0_5", true).corner->value, 0.5);
-    for (const char* name : {"FRAESER_1", "SCHRUPPER", "TASTER_6", "MILL_2_OF_8"})
+    for (const char* name : {"FRAESER_1", "SCHRUPPER", "TASTER_6", "MILL_2_OF_8", "711951"})
         EXPECT_FALSE(read_tool_text(name, true).describes_tool()) << name;
+}
+
+TEST(ToolText, takes_the_width_of_a_chamfer_for_no_diameter) {
+    EXPECT_FALSE(read_tool_text("TOOL 1 = CHAMFER MILL .010").diameter.has_value());
+    EXPECT_TRUE(read_tool_text("TOOL 1 = CHAMFER MILL .250").diameter.has_value());
 }
 
 motion::Move sideways(int tool = 0) {
@@ -253,6 +258,44 @@ motion::Move down(int tool) {
     move.tool = tool;
     move.end.tip_mm = {0, 0, -3};
     return move;
+}
+
+TEST(ToolText, takes_none_of_a_list_without_numbers_for_the_next_tool) {
+    Warnings warnings;
+    const char* const list[] = {"MILL D=10 H2", "BALL MILL D=10 H1", "BALL MILL D=6 H3"};
+    for (const int lines : {1, 2, 3}) {
+        ToolNotes notes;
+        for (int n = 0; n < lines; ++n) notes.read(list[n], n + 1);
+        notes.change(2);
+        notes.cut(sideways(2));
+        EXPECT_EQ(notes.tools(1, "p.mpf", warnings).size(), lines == 1 ? 1u : 0u) << lines;
+    }
+    // Two lines about one tool, and a text right before the change behind another one farther up.
+    ToolNotes twice;
+    twice.read("END MILL D=10", 1);
+    twice.read("END MILL D=10 4 FLUTES", 2);
+    twice.change(3);
+    EXPECT_EQ(twice.tools(1, "p.mpf", warnings).size(), 1u);
+    ToolNotes apart;
+    apart.read("FACE MILL D=50", 1);
+    apart.read("END MILL D=8", 9);
+    apart.change(3);
+    ASSERT_EQ(apart.tools(1, "p.mpf", warnings).size(), 1u);
+    EXPECT_EQ(apart.tools(1, "p.mpf", warnings)[0].diameter_mm, 8);
+}
+
+// H63Z10L85: of its holder.
+TEST(ToolText, gives_a_drill_no_more_than_four_flutes) {
+    Warnings warnings;
+    for (const auto& [text, flutes] : {std::pair{"T1 GUH-5512_H63Z10L85 DRILL / DM=9", 0},
+                                       {"T1 DRILL Z3 D=9", 3},
+                                       {"T1 MILL Z10 D=9", 10}}) {
+        ToolNotes notes;
+        notes.read(text, 1);
+        const auto tools = notes.tools(1, "p.h", warnings);
+        ASSERT_EQ(tools.size(), 1u) << text;
+        EXPECT_EQ(tools[0].flutes, flutes) << text;
+    }
 }
 
 motion::DeclaredTool only_tool(ToolNotes& notes, double unit_mm = 1) {

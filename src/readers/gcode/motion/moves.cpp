@@ -207,7 +207,7 @@ Result<void> require_start(Command& command, State& state, Output& output) {
     }
     if (!assumed.empty() && output.first(Note::unstated_axes)) {
         output.warn(command.line(),
-                    "feed move before all of X, Y and Z are stated: it is taken to start at " + assumed);
+                    "cut before all of X, Y and Z are stated: the tool is taken to start at " + assumed);
     }
     return {};
 }

@@ -67,7 +67,7 @@ Result<void> read_vector(Command& command, State& state, Output& output) {
         const Word* word = command.use("IJK"[k]);
         if (word == nullptr) continue;
         if (first == nullptr) first = word;
-        axis[k] = word->value;
+        axis[k] = state.rotary.vectors_to_tip ? -word->value : word->value;
     }
     if (first == nullptr) return {};
     if (!(length(axis) > 1e-6)) {

@@ -194,6 +194,10 @@ Result<bool> Lexer::next(Block& block) {
 // Returns true if the line is a setting, a '%' or skipped.
 Result<bool> Lexer::read_head(Block& block) {
     if (cursor_.peek() == '$') return read_setting(block);
+    if (cursor_.peek() == '[' && cursor_.line.size() > 1 && is_letter(cursor_.line[1])) {
+        block.setting = trimmed(cursor_.line);  // [BILLET X100 Y80 Z30
+        return true;
+    }
     if (cursor_.peek_after_blanks() == '%') {
         block.kind = BlockKind::percent;
         block.column = static_cast<int>(cursor_.at) + 1;

@@ -47,7 +47,7 @@ struct Block {
     bool has_open_comment = false;  // not closed on its line
     bool has_deleted_rest = false;  // behind a '/' inside; it is not read
     bool has_print = false;         // DPRNT and the like
-    std::string_view setting;       // a line that begins with '$'
+    std::string_view setting;       // a line that begins with '$', or with '[' and a name
     std::string_view label;         // what follows a '%'
     std::string called;             // NAME of M98<NAME> (Fanuc), in lower case
     MacroStatement macro;           // of a macro block

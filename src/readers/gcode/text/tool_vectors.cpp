@@ -39,7 +39,7 @@ std::optional<BlockWords> words_of(std::string_view line) {
         const std::size_t end = std::min(line.find_first_not_of("+-.0123456789", begin), line.size());
         const auto value = number_of(line.substr(begin, end - begin));
         if (!value) return std::nullopt;
-        if (c >= 'I' && c <= 'K') words.vector[static_cast<std::size_t>(c - 'I')] = *value;
+        if (c >= 'I' && c <= 'K') words.vector[static_cast<std::size_t>(c - 'I')] = value;
         words.has_place = words.has_place || (c >= 'X' && c <= 'Z');
         const bool is_plain =
             c != 'G' || std::find(kPlainCodes.begin(), kPlainCodes.end(), *value) != kPlainCodes.end();
@@ -51,21 +51,24 @@ std::optional<BlockWords> words_of(std::string_view line) {
 
 }  // namespace
 
-bool writes_tool_vectors(std::string_view bytes) {
+ToolVectors tool_vectors_of(std::string_view bytes) {
     TextLines lines(bytes.substr(0, kLookedAt));
     int blocks = 0;
+    bool is_upward = false;
     const bool is_cut = bytes.size() > kLookedAt;
     while (const auto line = lines.next()) {
         if (is_cut && lines.rest().empty()) break;  // half a line
         const auto words = words_of(*line);
-        if (!words || words->has_other_code) return false;
+        if (!words || words->has_other_code) return ToolVectors::none;
         const auto& [i, j, k] = words->vector;
         if (!i && !j && !k) continue;
-        if (!i || !j || !k || !words->has_place) return false;
-        if (!(std::abs(length(Vec3{*i, *j, *k}) - 1) <= kUnitLength)) return false;
+        if (!i || !j || !k || !words->has_place) return ToolVectors::none;
+        if (!(std::abs(length(Vec3{*i, *j, *k}) - 1) <= kUnitLength)) return ToolVectors::none;
+        is_upward = is_upward || *k > 0;
         ++blocks;
     }
-    return blocks >= kLeastBlocks;
+    if (blocks < kLeastBlocks) return ToolVectors::none;
+    return is_upward ? ToolVectors::to_shank : ToolVectors::to_tip;
 }
 
 }  // namespace tribo::readers::gcode

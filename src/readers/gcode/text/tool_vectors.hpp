@@ -6,8 +6,11 @@
 
 namespace tribo::readers::gcode {
 
-// True if each block with I, J or K has all three of them beside X, Y or Z, of length 1, in three blocks or
-// more, and no block has an arc, a cycle or another code that uses these words.
-bool writes_tool_vectors(std::string_view bytes);
+enum class ToolVectors { none, to_shank, to_tip };
+
+// Not none if each block with I, J or K has all three of them beside X, Y or Z, of length 1, in three blocks
+// or more, and no block has an arc, a cycle or another code that uses these words. To the tip if K is never
+// above 0: else the tool would stand under the table.
+ToolVectors tool_vectors_of(std::string_view bytes);
 
 }  // namespace tribo::readers::gcode
