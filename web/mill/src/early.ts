@@ -2,7 +2,7 @@
 // Starts slow work that needs little code while the script of the page is loading: the graphics of the browser, and
 // the connection to the engine.
 
-import { hidePoster, showPoster } from "./film/first_visit.js";
+import { declineFilm, hidePoster, showPoster } from "./film/first_visit.js";
 import { Connection } from "./sources/connection.js";
 import { loadTexts } from "./texts/texts.js";
 import { element } from "@tribo/ui/dom";
@@ -27,12 +27,23 @@ if (hasEngine) {
   }).observe({ type: "resource", buffered: true });
 }
 
+// Buttons are there before what they do: presses of them wait for it.
+const pressed: HTMLElement[] = [];
+function keep({ target }: MouseEvent): void {
+  declineFilm();
+  const button = target instanceof Element ? target.closest("button") : null;
+  if (button) pressed.push(button);
+}
+
 // The browser draws nothing while it begins the graphics: the poster comes first.
 async function begin(): Promise<void> {
+  addEventListener("click", keep, { capture: true });
   if (hasEngine) hidePoster();
   else await showPoster();
   context = canvas.getContext("webgl2", { alpha: true, antialias: true }) ?? undefined;
   await loadTexts();
   await import("./main.js");
+  removeEventListener("click", keep, { capture: true });
+  for (const button of pressed) button.click();
 }
 void begin();

@@ -197,12 +197,17 @@ describe.runIf(hasMillPage)("a first visit", () => {
   }, PATIENCE_MS);
   afterAll(() => mill?.close());
 
-  const visit = async (more: { reducedMotion?: "reduce" } = {}) => {
+  const visit = async (more: { reducedMotion?: "reduce" } = {}, late = "") => {
     const context = await mill.browser.newContext({ viewport: { width: 920, height: 520 }, ...more });
     const page = await context.newPage();
     // The plain light, as the graphics are software.
     await page.addInitScript(() => localStorage.setItem("tribo.look", "plain"));
     mill.watch(page);
+    if (late)
+      await page.route(late, async (route) => {
+        await new Promise((passed) => setTimeout(passed, 3000));
+        await route.continue();
+      });
     await page.goto(`${mill.server.root}/mill/`);
     return { context, page };
   };
@@ -277,6 +282,27 @@ describe.runIf(hasMillPage)("a first visit", () => {
       }
     },
     3 * PATIENCE_MS,
+  );
+
+  it(
+    "goes on without the film where a button is pressed before it, early or late, and does what the button is for",
+    async () => {
+      // What comes late: the script that gives the buttons their meaning, or the first part.
+      for (const late of ["**/mill/main-*.js", "**/*.wasm"]) {
+        const { context, page } = await visit({}, late);
+        if (late.endsWith("wasm"))
+          await page.waitForFunction(() => document.querySelector("#learn-begin:not([hidden])"));
+        await page.click("#show-panel");
+        await page.waitForSelector("#panel", { timeout: PATIENCE_MS });
+        await page.waitForSelector("#begin", { timeout: PATIENCE_MS });
+        await page.waitForTimeout(1000);
+        expect(await page.evaluate(phase)).toBeUndefined();
+        expect(await page.$("#poster")).toBeNull();
+        expect(await page.isVisible("#panel")).toBe(true);
+        await context.close();
+      }
+    },
+    2 * PATIENCE_MS,
   );
 
   it(

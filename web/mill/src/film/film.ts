@@ -4,7 +4,7 @@
 import { element } from "@tribo/ui/dom";
 import { t } from "../texts/texts.js";
 import type { Director, Phase, Stage } from "./director.js";
-import { hasPoster, hidePoster, isFilmNew, isStill, rememberFilm, withoutPoster } from "./first_visit.js";
+import { declineFilm, hidePoster, isFilmNew, isStill, rememberFilm, withoutPoster } from "./first_visit.js";
 
 const OWN_BUTTONS = "#film-buttons, #film";
 // Keys that lead to the buttons, or do nothing alone.
@@ -71,9 +71,10 @@ export class Film {
     if (this.stage.duration === 0) return;
     // The browser asks for the gesture that is being handled.
     if (which === "FILM") void this.actions.hear();
-    rememberFilm();
     try {
       const shots = await import("./director.js");
+      if (which === "PRELUDE" && !isFilmNew()) return;
+      rememberFilm();
       this.director ??= this.open(shots.Director);
       this.director.play(shots[which], performance.now() / 1000);
     } catch {
@@ -106,7 +107,7 @@ export class Film {
 
   private interrupt(): void {
     if (this.plays) this.skip();
-    else if (hasPoster()) this.giveUp();
+    else if (!this.director) declineFilm();
     else if (this.phase === "ended") this.stage.glow(false);
   }
 }

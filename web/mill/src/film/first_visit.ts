@@ -12,8 +12,10 @@ const PATIENCE_MS = 2000;
 /** Motion is not wanted. */
 export const isStill = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
 
-/** The film was not begun before, and may move. */
-export const isFilmNew = (): boolean => recall(SEEN) === "" && !isStill();
+let isDeclined = false;
+
+/** The film was not begun before, may move, and the visitor did not turn to something else. */
+export const isFilmNew = (): boolean => recall(SEEN) === "" && !isStill() && !isDeclined;
 export const rememberFilm = (): void => remember(SEEN, "seen");
 
 const poster = () => document.getElementById("poster");
@@ -33,13 +35,16 @@ export async function showPoster(): Promise<void> {
   if (!(await Promise.race([drawn().catch(() => false), patience]))) withoutPoster();
 }
 
-/** Whether the picture still stands for the part. */
-export const hasPoster = (): boolean => poster()?.hidden === false;
-
 /** The page as it is without film and picture. */
 export function withoutPoster(): void {
   hidePoster();
   delete document.body.dataset.film;
+}
+
+/** The visitor does something else before the film begins: this visit goes on without it. */
+export function declineFilm(): void {
+  isDeclined = true;
+  withoutPoster();
 }
 
 /** Ends it, at once or with a fade. */

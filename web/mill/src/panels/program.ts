@@ -127,7 +127,7 @@ export class Program {
     this.draw();
   }
   private follow(): void {
-    if (performance.now() > this.readsUntil) this.reveal(this.now);
+    if (performance.now() > this.readsUntil) this.reveal(this.glowing || this.now);
   }
 
   // Marks a line, and shows it; 0: none.
