@@ -21,7 +21,7 @@
 namespace tribo::job {
 namespace {
 
-constexpr std::size_t kLookedAt = 4096;  // characters from the start
+constexpr std::size_t kDialectBytes = 4096;  // characters from the start
 
 struct Extension {
     std::string_view text;
@@ -70,7 +70,7 @@ bool begins_like_gcode(std::string_view line) {
 
 std::optional<PathKind> detect_by_content(std::string_view bytes) {
     if (readers::looks_like_nci(bytes)) return PathKind::apt;
-    const std::string text = lower(bytes.substr(0, kLookedAt));
+    const std::string text = lower(bytes.substr(0, kDialectBytes));
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
         const std::string_view line = std::string_view(text).substr(at, end - at);

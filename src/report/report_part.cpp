@@ -65,7 +65,7 @@ void append_u16(std::string& bytes, std::uint32_t value) {
     bytes += static_cast<char>(value >> 8 & 0xff);
 }
 
-std::string number(double value) {
+std::string json_number(double value) {
     char text[40];
     std::snprintf(text, sizeof text, "%.9g", value);
     return text;
@@ -130,11 +130,11 @@ std::string report_part_json(const ReportPart& part) {
     const Grid grid = grid_of(part.mesh);
     std::string json = "{\"vertices\":" + std::to_string(part.mesh.positions.size()) +
                        ",\"triangles\":" + std::to_string(part.mesh.triangles.size()) + ",\"origin\":[" +
-                       number(grid.origin.x) + "," + number(grid.origin.y) + "," + number(grid.origin.z) +
-                       "],\"step\":" + number(grid.step_mm);
+                       json_number(grid.origin.x) + "," + json_number(grid.origin.y) + "," +
+                       json_number(grid.origin.z) + "],\"step\":" + json_number(grid.step_mm);
     if (!part.deviation_mm.empty()) {
-        json += ",\"deviation_step\":" + number(deviation_step_mm(part)) +
-                ",\"deviation_range\":" + number(part.deviation_range_mm);
+        json += ",\"deviation_step\":" + json_number(deviation_step_mm(part)) +
+                ",\"deviation_range\":" + json_number(part.deviation_range_mm);
     }
     return json + "}";
 }

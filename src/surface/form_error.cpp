@@ -16,7 +16,7 @@ constexpr int kMostLooked = 32;  // traces of a cell
 constexpr double kSameFace = 0.9;
 // Less is rounding.
 constexpr double kLeastErrorMm = 1e-6;
-constexpr std::size_t kChunk = 1024;
+constexpr std::size_t kSamplesAtOnce = 1024;
 
 double length_of(const ToothTrace& t) {
     return distance(t.from_mm, t.to_mm);
@@ -28,8 +28,9 @@ FormError::FormError(ToothTraces traces, const contact::DistanceField& machined,
                      const ParallelFor& parallel) {
     keep(std::move(traces), machined, parallel);
     const std::size_t count = kept_.traces.size();
-    parallel((count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-        for (std::size_t n = chunk * kChunk; n < std::min(count, (chunk + 1) * kChunk); ++n) cut_beside(n);
+    parallel((count + kSamplesAtOnce - 1) / kSamplesAtOnce, [&](std::size_t chunk) {
+        for (std::size_t n = chunk * kSamplesAtOnce; n < std::min(count, (chunk + 1) * kSamplesAtOnce); ++n)
+            cut_beside(n);
     });
     extremes_ = extremes_of(kept_.traces);
     std::vector<Vec3> places;
@@ -45,8 +46,8 @@ FormError::FormError(ToothTraces traces, const contact::DistanceField& machined,
 void FormError::keep(ToothTraces all, const contact::DistanceField& machined, const ParallelFor& parallel) {
     const std::size_t count = all.traces.size();
     std::vector<char> stays(count);
-    parallel((count + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-        for (std::size_t n = chunk * kChunk; n < std::min(count, (chunk + 1) * kChunk); ++n) {
+    parallel((count + kSamplesAtOnce - 1) / kSamplesAtOnce, [&](std::size_t chunk) {
+        for (std::size_t n = chunk * kSamplesAtOnce; n < std::min(count, (chunk + 1) * kSamplesAtOnce); ++n) {
             const ToothTrace& t = all.traces[n];
             const double off = machined.distance_mm(0.5 * (t.from_mm + t.to_mm));
             stays[n] = t.count > 0 && std::abs(off) <= kOnSurfaceMm;

@@ -10,10 +10,10 @@
 namespace tribo::surface {
 namespace {
 
-constexpr std::size_t kChunk = 256;  // points that one task measures
-constexpr std::size_t kClimbs = 16;  // number of points from which each extreme is climbed
-constexpr double kOnBlank = 1e-3;    // a point less deep in the blank is on its surface, mm
-constexpr int kMostMoves = 200;      // limit of the rounds of a climb; twenty are enough
+constexpr std::size_t kClimbsAtOnce = 256;  // points that one task measures
+constexpr std::size_t kClimbs = 16;         // number of points from which each extreme is climbed
+constexpr double kOnBlank = 1e-3;           // a point less deep in the blank is on its surface, mm
+constexpr int kMostRounds = 200;            // limit of the rounds of a climb; twenty are enough
 
 class MachinedSide {
   public:
@@ -41,7 +41,7 @@ class MachinedSide {
         Vec3 at = start;
         const double diagonal = std::sqrt(0.5);
         int moves = 0;
-        for (double step = spacing; step > spacing / 65536 && moves < kMostMoves; ++moves) {
+        for (double step = spacing; step > spacing / 65536 && moves < kMostRounds; ++moves) {
             const Vec3 n = machined_.normal(at), u = any_perpendicular(n), v = cross(n, u);
             const Vec3 ways[] = {u,
                                  -u,
@@ -81,11 +81,11 @@ MachinedExtremes farthest_machined(const contact::DistanceField& machined, const
     if (!designed.watertight() && designed.turned_edges() > 0) return {};
     const MachinedSide side(machined, designed, blank);
     std::vector<double> heights(points.size());
-    parallel((points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-        const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
+    parallel((points.size() + kClimbsAtOnce - 1) / kClimbsAtOnce, [&](std::size_t chunk) {
+        const std::size_t end = std::min(points.size(), (chunk + 1) * kClimbsAtOnce);
         std::uint32_t triangle = 0;
         Vec3 foot;
-        for (std::size_t i = chunk * kChunk; i < end; ++i) {
+        for (std::size_t i = chunk * kClimbsAtOnce; i < end; ++i) {
             heights[i] = side.measure(points[i], triangle, foot);
         }
     });

@@ -9,9 +9,9 @@
 namespace tribo::surface {
 namespace {
 
-constexpr double kOffBlank = 1e-3;  // a point farther outside the blank than this is outside, mm
-constexpr double kNoDoubt = 1e-4;   // lower heights are not refined, mm
-constexpr int kMostBalls = 16;      // largest number of balls; three to five are usual
+constexpr double kOutsideBlank = 1e-3;  // a point farther outside the blank than this is outside, mm
+constexpr double kNoDoubt = 1e-4;       // lower heights are not refined, mm
+constexpr int kMostBalls = 16;          // largest number of balls; three to five are usual
 constexpr double kLeastShrink = 0.99;
 // A ball belongs to the point if the design comes no nearer to its centre than this share of its radius. With
 // it, facets of a curved design that meet at angles up to 25 degrees do not hide each other.
@@ -25,12 +25,12 @@ std::optional<NearestHeight::Way> NearestHeight::way(Vec3 point, Vec3 normal) co
     if (in_material) return Way{found.value_or(limit_), !found};
     const Way down{found.value_or(-limit_), !found};
     if (!blank_) return down;
-    if (blank_->distance_mm(point) > kOffBlank) return std::nullopt;
+    if (blank_->distance_mm(point) > kOutsideBlank) return std::nullopt;
     // Ends at the border of the blank if that comes first: material that never existed was not gouged.
     for (double t = 0; t > down.mm;) {
         const double depth = blank_->distance_mm(point + t * normal);
-        if (depth > kOffBlank) return Way{t, false};
-        t += std::min(depth, -kOffBlank);
+        if (depth > kOutsideBlank) return Way{t, false};
+        t += std::min(depth, -kOutsideBlank);
     }
     return down;
 }

@@ -11,14 +11,14 @@
 namespace tribo::sweep {
 namespace {
 
-constexpr double kNineOfTen = 1.6448536;  // standard deviations
+constexpr double kRangeSigmas = 1.6448536;  // standard deviations
 constexpr std::uint64_t kOrders = 0x63686174746572;
 
 }  // namespace
 
 SpreadFactors::SpreadFactors(std::size_t cases, std::size_t value, double low, double high)
     : middle_(0.5 * (math::log(low) + math::log(high))),
-      sigma_(0.5 * (math::log(high) - math::log(low)) / kNineOfTen),
+      sigma_(0.5 * (math::log(high) - math::log(low)) / kRangeSigmas),
       order_(cases) {
     assert(cases > 0 && low > 0 && low <= high);
     // The quantiles in an order of their own.

@@ -26,7 +26,7 @@ constexpr Levels kUp{-16, -20, -19, -16, -18, -15, -13, -6,  -14, -18,
 constexpr Levels kDown{-19, -19, -18, -16, -18, -14, -7,  -10, -13, -15,
                        -10, -16, -13, -13, -13, -12, -15, -14, -14, -17};
 
-constexpr const char* kJob = R"(
+constexpr const char* kSoundJob = R"(
 [stock]
 box_mm = [[0, 0, -26], [60, 40, 0]]
 [[cutter]]
@@ -51,7 +51,7 @@ struct Sound {
 
 Sound rendered(const std::string& sound, const std::string& program = kUpCut) {
     const JobFolder job;
-    job.put("job.toml", kJob + ("[sound]\nbits = 32\n" + sound));
+    job.put("job.toml", kSoundJob + ("[sound]\nbits = 32\n" + sound));
     job.put("cut.nc", program);
     const Outcome run = job.render({"--only", "sound", "--resolution", "0.5"});
     EXPECT_EQ(run.code, 0) << run.err;
@@ -174,7 +174,7 @@ TEST(CutSound, refuses_machines_rooms_and_levels_that_do_not_exist) {
                                      {"mode = \"pan\"\nequalize = \"none\"", "equalize"},
                                      {"equalize = \"flat\"", "equalize"}}) {
         const JobFolder job;
-        job.put("job.toml", kJob + (std::string("[sound]\n") + keys + "\n"));
+        job.put("job.toml", kSoundJob + (std::string("[sound]\n") + keys + "\n"));
         job.put("cut.nc", kUpCut);
         const Outcome run = job.render({"--only", "sound", "--resolution", "0.5"});
         EXPECT_EQ(run.code, 2) << keys;
@@ -193,7 +193,8 @@ TEST(CutSound, learned_from_a_cut_sounds_as_its_other_half) {
         run_tribo({"learn", "--recording", "100:half.wav", "--out", "half.json"}, job.path());
     ASSERT_EQ(learned.code, 0) << learned.err;
     job.put("cut.nc", kUpCut);
-    job.put("job.toml", kJob + std::string("[sound]\nbits = 32\nmode = \"pan\"\nchips = \"half.json\"\n"));
+    job.put("job.toml",
+            kSoundJob + std::string("[sound]\nbits = 32\nmode = \"pan\"\nchips = \"half.json\"\n"));
     const Outcome run = job.render({"--only", "sound", "--resolution", "0.5"});
     ASSERT_EQ(run.code, 0) << run.err;
     const std::vector<double> wave = Riff(job.get("sound.wav")).samples(32);

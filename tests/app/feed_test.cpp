@@ -12,13 +12,13 @@
 namespace tribo::test {
 namespace {
 
-constexpr const char* kSlots =
+constexpr const char* kFeedSlots =
     "G21 G90 M3 S8000\nG0 X-8 Y20 Z5\nZ-1\nG1 X20 F1600 (first)\nX48\nG0 Z5\nY35\nX-8\nZ-0.5\nG1 X48\nG0 "
     "Z5\nM30\n";
 
 class FeedVerb : public testing::Test {
   protected:
-    Outcome run(std::vector<std::string> flags, const std::string& program = kSlots) const {
+    Outcome run(std::vector<std::string> flags, const std::string& program = kFeedSlots) const {
         scratch.put("slot.nc", program);
         scratch.put("job.toml", kBenchmarkSlot);
         flags.insert(flags.begin(), {"feed", "job.toml"});
@@ -38,7 +38,7 @@ TEST_F(FeedVerb, changes_the_feed_words_alone_and_reaches_the_target) {
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const std::string text = scratch.get("new.nc");
     // Without its feed words it is the old program.
-    std::string bare, old = kSlots;
+    std::string bare, old = kFeedSlots;
     for (std::size_t n = 0; n < text.size(); ++n) {
         if (text[n] == 'F') {
             while (n + 1 < text.size() && (std::isdigit(text[n + 1]) || text[n + 1] == '.')) ++n;
@@ -131,10 +131,10 @@ TEST_F(FeedVerb, writes_in_place_only_if_it_is_asked_to) {
     const Outcome refused = run({"--out", "slot.nc", "--force-n", "40"});
     EXPECT_EQ(refused.code, 2);
     EXPECT_NE(refused.err.find("is an input of this run"), std::string::npos) << refused.err;
-    EXPECT_EQ(scratch.get("slot.nc"), kSlots);
+    EXPECT_EQ(scratch.get("slot.nc"), kFeedSlots);
     EXPECT_EQ(run({}).code, 2);
     EXPECT_EQ(run({"--in-place", "--force-n", "40"}).code, 0);
-    EXPECT_NE(scratch.get("slot.nc"), kSlots);
+    EXPECT_NE(scratch.get("slot.nc"), kFeedSlots);
 }
 
 TEST_F(FeedVerb, refuses_by_line_what_it_cannot_rewrite_and_writes_nothing) {
@@ -227,7 +227,7 @@ TEST_F(FeedVerb, writes_speeds_without_chatter_and_keeps_the_chips) {
         call.emplace_back(out);
         return run_tribo(call, scratch.path());
     };
-    const Outcome outcome = feed("new.nc", kSlots);
+    const Outcome outcome = feed("new.nc", kFeedSlots);
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const auto speed = nlohmann::json::parse(outcome.out, nullptr, false)["speeds"][0];
     EXPECT_EQ(speed["old_rpm"], 8000);

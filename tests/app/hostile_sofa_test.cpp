@@ -12,7 +12,7 @@
 namespace tribo::test {
 namespace {
 
-constexpr const char* kJob = R"([stock]
+constexpr const char* kHeadJob = R"([stock]
 box_mm = [[0, 0, -5], [10, 10, 0]]
 [cutter]
 kind = "flat"
@@ -35,7 +35,7 @@ std::string shipped() {
 }
 
 Outcome rendered(const JobFolder& folder, const std::string& sound) {
-    folder.put("job.toml", kJob + sound);
+    folder.put("job.toml", kHeadJob + sound);
     folder.put("slot.nc", "G21 G90 M3\nG0 X-5 Y5 Z-1\nG1 X4 F600\nM30\n");
     return folder.render({"--only", "sound"});
 }

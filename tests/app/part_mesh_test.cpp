@@ -11,12 +11,12 @@
 namespace tribo::test {
 namespace {
 
-const std::string kExamples = std::string(TRIBO_SOURCE_DIR) + "/examples/";
+const std::string kMeshExamples = std::string(TRIBO_SOURCE_DIR) + "/examples/";
 
 TEST(PartMesh, of_every_example_is_closed_and_does_not_meet_itself) {
     for (const std::string name : {"blade", "bowl", "bracket", "dome", "plate", "rose"}) {
         const Scratch scratch;
-        const Outcome run = run_tribo({"render", kExamples + name + "/" + name + ".toml", "--out",
+        const Outcome run = run_tribo({"render", kMeshExamples + name + "/" + name + ".toml", "--out",
                                        scratch / "out", "--only", "mesh", "--resolution", "0.4"});
         ASSERT_EQ(run.code, 0) << run.err;
         const auto model = files::read_model_file({scratch / "out/machined.stl", {}});

@@ -14,15 +14,15 @@ namespace tribo {
 namespace {
 
 using LongDouble = long double;
-constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr bool kWideReference = std::numeric_limits<LongDouble>::digits >= 64;
 
 // Distance of `value` from `exact` in units in the last place of a double of the size of `exact`.
 double ulps(double value, LongDouble exact) {
     const double nearest = static_cast<double>(exact);
-    if (std::isnan(nearest)) return std::isnan(value) ? 0 : kInf;
-    if (std::isinf(nearest) || std::isinf(value)) return value == nearest ? 0 : kInf;
+    if (std::isnan(nearest)) return std::isnan(value) ? 0 : kInfinity;
+    if (std::isinf(nearest) || std::isinf(value)) return value == nearest ? 0 : kInfinity;
     int exponent = 0;
     std::frexp(exact, &exponent);
     const LongDouble ulp = std::ldexp(1.0L, std::max(exponent - 53, -1074));
@@ -119,7 +119,7 @@ TEST_F(Math, sine_and_cosine_hold_next_to_multiples_of_a_quarter_turn) {
     for (int n = 1; n < 80'000; ++n) {
         double x = static_cast<double>(n * (std::numbers::pi_v<LongDouble> / 2));
         for (int side = -1; side <= 1; ++side) {
-            const double near = side == 0 ? x : std::nextafter(x, side * kInf);
+            const double near = side == 0 ? x : std::nextafter(x, side * kInfinity);
             worst.note(ulps(math::sin(near), kSin(near)), near);
             worst.note(ulps(math::cos(near), kCos(near)), near);
             worst.note(ulps(math::tan(near), kTan(near)), near);
@@ -251,15 +251,15 @@ TEST(MathSpecialValues, zeros_keep_their_sign_and_tiny_arguments_their_value) {
 
 TEST(MathSpecialValues, what_has_no_value_is_the_one_quiet_nan) {
     for (auto f : {math::sin, math::cos, math::tan, math::asin, math::acos}) {
-        expect_same(f(kInf), kNan);
-        expect_same(f(-kInf), kNan);
+        expect_same(f(kInfinity), kNan);
+        expect_same(f(-kInfinity), kNan);
     }
     for (auto f : {math::sin, math::cos, math::tan, math::asin, math::acos, math::atan, math::exp, math::log,
                    math::log10, math::cbrt}) {
         expect_same(f(-kNan), kNan);
     }
     double s = 0, c = 0;
-    math::sincos(kInf, s, c);
+    math::sincos(kInfinity, s, c);
     expect_same(s, kNan);
     expect_same(c, kNan);
     for (double x : {std::nextafter(1, 2), -2.0}) {
@@ -267,7 +267,7 @@ TEST(MathSpecialValues, what_has_no_value_is_the_one_quiet_nan) {
         expect_same(math::acos(x), kNan);
     }
     expect_same(math::log(-1), kNan);
-    expect_same(math::log10(-kInf), kNan);
+    expect_same(math::log10(-kInfinity), kNan);
     expect_same(math::atan2(kNan, 1), kNan);
     expect_same(math::hypot(kNan, 1), kNan);
     expect_same(math::pow(-2, 0.5), kNan);
@@ -276,21 +276,21 @@ TEST(MathSpecialValues, what_has_no_value_is_the_one_quiet_nan) {
 }
 
 TEST(MathSpecialValues, infinities_and_ends_of_the_range) {
-    expect_same(math::exp(kInf), kInf);
-    expect_same(math::exp(-kInf), 0);
-    expect_same(math::exp(710), kInf);
+    expect_same(math::exp(kInfinity), kInfinity);
+    expect_same(math::exp(-kInfinity), 0);
+    expect_same(math::exp(710), kInfinity);
     expect_same(math::exp(-746), 0);
     expect_same(math::exp(-745), 5e-324);
-    EXPECT_LT(math::exp(0x1.62e42fefa39efp9), kInf);
-    expect_same(math::log(0), -kInf);
-    expect_same(math::log10(-0.0), -kInf);
-    expect_same(math::log(kInf), kInf);
-    expect_same(math::atan(-kInf), -math::kHalfPi);
-    expect_same(math::cbrt(-kInf), -kInf);
-    expect_same(math::hypot(kInf, kNan), kInf);
+    EXPECT_LT(math::exp(0x1.62e42fefa39efp9), kInfinity);
+    expect_same(math::log(0), -kInfinity);
+    expect_same(math::log10(-0.0), -kInfinity);
+    expect_same(math::log(kInfinity), kInfinity);
+    expect_same(math::atan(-kInfinity), -math::kHalfPi);
+    expect_same(math::cbrt(-kInfinity), -kInfinity);
+    expect_same(math::hypot(kInfinity, kNan), kInfinity);
     expect_same(math::hypot(-3, 4), 5);
     expect_same(math::hypot(3e300, -4e300), 5e300);
-    expect_same(math::hypot(1.5e308, 1.5e308), kInf);
+    expect_same(math::hypot(1.5e308, 1.5e308), kInfinity);
 }
 
 TEST(MathSpecialValues, angles_of_points_on_the_axes_and_at_infinity) {
@@ -305,14 +305,14 @@ TEST(MathSpecialValues, angles_of_points_on_the_axes_and_at_infinity) {
                                {-0.0, -0.0, -kPi},
                                {1, 0, kPi / 2},
                                {-1, -0.0, -kPi / 2},
-                               {kInf, 1, kPi / 2},
-                               {-kInf, 1, -kPi / 2},
-                               {1, kInf, 0},
-                               {-1, kInf, -0.0},
-                               {1, -kInf, kPi},
-                               {kInf, kInf, kPi / 4},
-                               {kInf, -kInf, 0x1.2d97c7f3321d2p+1},
-                               {-kInf, kInf, -kPi / 4},
+                               {kInfinity, 1, kPi / 2},
+                               {-kInfinity, 1, -kPi / 2},
+                               {1, kInfinity, 0},
+                               {-1, kInfinity, -0.0},
+                               {1, -kInfinity, kPi},
+                               {kInfinity, kInfinity, kPi / 4},
+                               {kInfinity, -kInfinity, 0x1.2d97c7f3321d2p+1},
+                               {-kInfinity, kInfinity, -kPi / 4},
                                {1, 1, kPi / 4},
                                {5e-324, 1e300, 0},
                                {5e-324, -1e300, kPi},
@@ -325,30 +325,30 @@ TEST(MathSpecialValues, powers_follow_annex_f) {
     const double cases[][3] = {{0, 3, 0},
                                {-0.0, 3, -0.0},
                                {-0.0, 2, 0},
-                               {-0.0, -3, -kInf},
-                               {0, -2, kInf},
-                               {-0.0, -0.5, kInf},
-                               {-1, kInf, 1},
-                               {-1, -kInf, 1},
+                               {-0.0, -3, -kInfinity},
+                               {0, -2, kInfinity},
+                               {-0.0, -0.5, kInfinity},
+                               {-1, kInfinity, 1},
+                               {-1, -kInfinity, 1},
                                {1, kNan, 1},
                                {kNan, 0, 1},
-                               {0.5, -kInf, kInf},
-                               {0.5, kInf, 0},
-                               {-2, kInf, kInf},
-                               {2, -kInf, 0},
-                               {-kInf, 3, -kInf},
-                               {-kInf, 2, kInf},
-                               {-kInf, -3, -0.0},
-                               {-kInf, -2, 0},
-                               {kInf, 0.5, kInf},
-                               {kInf, -0.5, 0},
+                               {0.5, -kInfinity, kInfinity},
+                               {0.5, kInfinity, 0},
+                               {-2, kInfinity, kInfinity},
+                               {2, -kInfinity, 0},
+                               {-kInfinity, 3, -kInfinity},
+                               {-kInfinity, 2, kInfinity},
+                               {-kInfinity, -3, -0.0},
+                               {-kInfinity, -2, 0},
+                               {kInfinity, 0.5, kInfinity},
+                               {kInfinity, -0.5, 0},
                                {-1, 1e300, 1},
                                {-1, 9007199254740991, -1},
-                               {-2, 1024, kInf},
+                               {-2, 1024, kInfinity},
                                {-2, 1023, -0x1p1023},
                                {-2, -1074, 5e-324},
                                {-2, -1077, -0.0},
-                               {1 + 0x1p-52, 1e300, kInf},
+                               {1 + 0x1p-52, 1e300, kInfinity},
                                {1 - 0x1p-53, 1e300, 0},
                                {2, 1e-300, 1},
                                {5e-324, 0.5, 0x1p-537},

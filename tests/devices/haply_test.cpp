@@ -104,7 +104,7 @@ HaplyOptions at(const Service& service) {
     return options;
 }
 
-bool comes(haptics::Device& device, haptics::HandReading& reading, DeviceState state) {
+bool haply_comes(haptics::Device& device, haptics::HandReading& reading, DeviceState state) {
     for (int n = 0; n < 8000; ++n) {
         if (device.read(reading) == state) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -128,7 +128,7 @@ TEST(Haply, speaks_as_the_vendors_tutorials_do) {
     EXPECT_EQ((*device)->limits().max_force_n, 2);
     EXPECT_EQ((*device)->trouble(), "");
     haptics::HandReading reading;
-    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
+    ASSERT_TRUE(haply_comes(**device, reading, DeviceState::ready));
     EXPECT_NEAR(distance(reading.position_mm, {10, 20, 30}), 0, 1e-9);
     const nlohmann::json force = nlohmann::json::parse(R"({"inverse3": [{"device_id": "0A",
         "commands": {"set_cursor_force": {"vector": {"x": 0.5, "y": 0, "z": 1.25}}}}]})");
@@ -202,7 +202,7 @@ TEST(Haply, takes_states_and_answers_each_with_the_newest_force) {
     auto device = open_haply(at(service));
     ASSERT_TRUE(device.has_value()) << device.error().text();
     haptics::HandReading reading;
-    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
+    ASSERT_TRUE(haply_comes(**device, reading, DeviceState::ready));
     for (int n = 0; n < 4000 && (seen_z != 1.25 || reading.position_mm.z < 39); ++n) {
         (*device)->write({0, 0, 1.25});
         (*device)->read(reading);
@@ -227,7 +227,7 @@ TEST(Haply, is_gone_when_the_service_closes) {
     auto device = open_haply(at(service));
     ASSERT_TRUE(device.has_value()) << device.error().text();
     haptics::HandReading reading;
-    EXPECT_TRUE(comes(**device, reading, DeviceState::gone));
+    EXPECT_TRUE(haply_comes(**device, reading, DeviceState::gone));
     EXPECT_FALSE((*device)->trouble().empty());
 }
 
@@ -239,9 +239,9 @@ TEST(Haply, is_silent_while_a_reply_is_late) {
     auto device = open_haply(at(service));
     ASSERT_TRUE(device.has_value()) << device.error().text();
     haptics::HandReading reading;
-    ASSERT_TRUE(comes(**device, reading, DeviceState::ready));
-    EXPECT_TRUE(comes(**device, reading, DeviceState::silent));
-    EXPECT_TRUE(comes(**device, reading, DeviceState::ready));
+    ASSERT_TRUE(haply_comes(**device, reading, DeviceState::ready));
+    EXPECT_TRUE(haply_comes(**device, reading, DeviceState::silent));
+    EXPECT_TRUE(haply_comes(**device, reading, DeviceState::ready));
 }
 
 TEST(Haply, says_what_to_do_where_there_is_no_service_no_arm_or_another_version) {

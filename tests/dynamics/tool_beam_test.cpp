@@ -6,15 +6,14 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "base/math.hpp"
 #include "milling/tool/cutter_shape.hpp"
 
 namespace tribo::dynamics {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
-
-double inertia_mm4(double diameter_mm) {
-    return kPi / 64 * std::pow(diameter_mm, 4);
+double round_inertia_mm4(double diameter_mm) {
+    return math::kPi / 64 * std::pow(diameter_mm, 4);
 }
 
 // The bending line, integrated from the clamped end down to the tip in many small steps.
@@ -34,12 +33,12 @@ Integrated integrated(const ToolBeam& beam, double height_mm) {
         const double dz = s.length_mm / kSteps;
         for (int step = 0; step < kSteps; ++step) {
             const double z = top - (step + 0.5) * dz, moment = std::max(0.0, z - height_mm);
-            const double bend = moment / (s.material.young_n_per_mm2 * inertia_mm4(s.diameter_mm)) * dz;
+            const double bend = moment / (s.material.young_n_per_mm2 * round_inertia_mm4(s.diameter_mm)) * dz;
             shift += slope * dz + 0.5 * bend * dz;
             slope += bend;
             if (n < beam.body.size())
-                all.stress_per_mm2 =
-                    std::max(all.stress_per_mm2, moment * s.diameter_mm / 2 / inertia_mm4(s.diameter_mm));
+                all.stress_per_mm2 = std::max(all.stress_per_mm2,
+                                              moment * s.diameter_mm / 2 / round_inertia_mm4(s.diameter_mm));
         }
         top -= s.length_mm;
     }
@@ -66,8 +65,8 @@ TEST(ToolBeam, of_one_section_bends_as_a_cantilever) {
     const ToolBeam beam = tool_beam(milling::Cutter{.diameter_mm = 10, .length_mm = 30});
     const BendingByForce bending = bending_by_force(beam, 0);
     const double d = 8;  // 0.8 of the diameter
-    EXPECT_NEAR(bending.yield_mm, std::pow(30.0, 3) / (3 * 600e3 * inertia_mm4(d)), 1e-12);
-    EXPECT_NEAR(bending.stress_per_mm2, 32 * 30 / (kPi * d * d * d), 1e-9);
+    EXPECT_NEAR(bending.yield_mm, std::pow(30.0, 3) / (3 * 600e3 * round_inertia_mm4(d)), 1e-12);
+    EXPECT_NEAR(bending.stress_per_mm2, 32 * 30 / (math::kPi * d * d * d), 1e-9);
     EXPECT_EQ(bending.stress_height_mm, 30);
 }
 
@@ -135,12 +134,12 @@ TEST(ToolBeam, is_not_bent_by_a_force_above_it) {
 TEST(ToolBeam, of_a_taper_bends_as_a_tapered_cantilever) {
     milling::Cutter taper{
         .kind = milling::CutterKind::taper, .diameter_mm = 10, .length_mm = 40, .tip_mm = 4, .taper_deg = 1};
-    taper.taper_deg = std::atan(3.0 / 40) * 180 / kPi;
+    taper.taper_deg = std::atan(3.0 / 40) * 180 / math::kPi;
     taper.tip_mm = 4;
     ASSERT_TRUE(milling::make_profile(taper));
     const BendingByForce bending = bending_by_force(tool_beam(taper), 0);
     const double d0 = kFlutedShare * 4, d1 = kFlutedShare * 10, length = 40, young = 600e3;
-    const double expected = 64 * length * length * length / (3 * kPi * young * d0 * d1 * d1 * d1);
+    const double expected = 64 * length * length * length / (3 * math::kPi * young * d0 * d1 * d1 * d1);
     EXPECT_NEAR(bending.yield_mm / expected, 1, 0.01);
 }
 

@@ -9,16 +9,16 @@
 namespace tribo::elastic {
 namespace {
 
-constexpr int kSide = 96;
+constexpr int kPictureSide = 96;
 
-std::vector<std::uint8_t> plain(std::uint8_t grey) {
-    std::vector<std::uint8_t> image(4 * kSide * kSide, grey);
+std::vector<std::uint8_t> plain_picture(std::uint8_t grey) {
+    std::vector<std::uint8_t> image(4 * kPictureSide * kPictureSide, grey);
     for (std::size_t i = 3; i < image.size(); i += 4) image[i] = 200;
     return image;
 }
 
-Sheet pressed(double x_mm, double y_mm) {
-    Sheet sheet({kSide, kSide, 1});
+Sheet pressed_at(double x_mm, double y_mm) {
+    Sheet sheet({kPictureSide, kPictureSide, 1});
     sheet.set_material({1, 0});
     ContactEllipse c;
     c.x_mm = x_mm;
@@ -30,19 +30,21 @@ Sheet pressed(double x_mm, double y_mm) {
 }
 
 TEST(Picture, at_rest_is_the_image_byte_by_byte) {
-    std::vector<std::uint8_t> image(4 * kSide * kSide), out(image.size());
+    std::vector<std::uint8_t> image(4 * kPictureSide * kPictureSide), out(image.size());
     std::iota(image.begin(), image.end(), std::uint8_t{0});
-    const Sheet sheet({kSide, kSide, 0.3});
-    draw_rows(sheet, image, out, 0, kSide);
+    const Sheet sheet({kPictureSide, kPictureSide, 0.3});
+    draw_rows(sheet, image, out, 0, kPictureSide);
     EXPECT_EQ(out, image);
 }
 
 TEST(Picture, the_far_wall_of_a_dent_is_lit_and_the_near_one_dark) {
-    const Sheet sheet = pressed(48, 48);
-    const auto image = plain(120);
+    const Sheet sheet = pressed_at(48, 48);
+    const auto image = plain_picture(120);
     std::vector<std::uint8_t> out(image.size());
-    draw_rows(sheet, image, out, 0, kSide);
-    const auto grey = [&](int x, int y) { return int{out[static_cast<std::size_t>(4 * (y * kSide + x))]}; };
+    draw_rows(sheet, image, out, 0, kPictureSide);
+    const auto grey = [&](int x, int y) {
+        return int{out[static_cast<std::size_t>(4 * (y * kPictureSide + x))]};
+    };
     // The light stands at the upper left: the wall that faces it is the one at the lower right.
     EXPECT_GT(grey(54, 57), 125);
     EXPECT_LT(grey(42, 39), 115);
@@ -53,20 +55,20 @@ TEST(Picture, the_far_wall_of_a_dent_is_lit_and_the_near_one_dark) {
 TEST(Picture, what_is_pressed_moves_away_from_the_eye) {
     // A dark row of the image through the dent: the eye looks from below, so that its image comes nearer
     // to the middle of the eye's field, downwards.
-    const Sheet sheet = pressed(48, 30);
-    auto image = plain(250);
-    for (int x = 0; x < kSide; ++x)
-        for (int c = 0; c < 3; ++c) image[static_cast<std::size_t>(4 * (30 * kSide + x) + c)] = 0;
+    const Sheet sheet = pressed_at(48, 30);
+    auto image = plain_picture(250);
+    for (int x = 0; x < kPictureSide; ++x)
+        for (int c = 0; c < 3; ++c) image[static_cast<std::size_t>(4 * (30 * kPictureSide + x) + c)] = 0;
     std::vector<std::uint8_t> out(image.size());
     PictureView view;
     view.relief = 2;
     view.half_mm = 5;
-    draw_rows(sheet, image, out, 0, kSide, nullptr, view);
+    draw_rows(sheet, image, out, 0, kPictureSide, nullptr, view);
     const auto darkest = [&](int x) {
         int best = 0;
-        for (int y = 0; y < kSide; ++y)
-            if (out[static_cast<std::size_t>(4 * (y * kSide + x))] <
-                out[static_cast<std::size_t>(4 * (best * kSide + x))])
+        for (int y = 0; y < kPictureSide; ++y)
+            if (out[static_cast<std::size_t>(4 * (y * kPictureSide + x))] <
+                out[static_cast<std::size_t>(4 * (best * kPictureSide + x))])
                 best = y;
         return best;
     };
@@ -100,11 +102,12 @@ TEST(Picture, dents_of_stiff_and_soft_materials_show_and_the_deeper_ones_more) {
 }
 
 TEST(Picture, rows_drawn_apart_are_those_drawn_at_once) {
-    const Sheet sheet = pressed(40, 50);
-    const auto image = plain(120);
+    const Sheet sheet = pressed_at(40, 50);
+    const auto image = plain_picture(120);
     std::vector<std::uint8_t> whole(image.size()), parts(image.size());
-    draw_rows(sheet, image, whole, 0, kSide);
-    for (int y = 0; y < kSide; y += 5) draw_rows(sheet, image, parts, y, std::min(5, kSide - y));
+    draw_rows(sheet, image, whole, 0, kPictureSide);
+    for (int y = 0; y < kPictureSide; y += 5)
+        draw_rows(sheet, image, parts, y, std::min(5, kPictureSide - y));
     EXPECT_EQ(whole, parts);
 }
 

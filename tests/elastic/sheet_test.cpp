@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-ContactEllipse finger(double x_mm, double y_mm, double force_n = 1) {
+ContactEllipse finger_at(double x_mm, double y_mm, double force_n = 1) {
     ContactEllipse c;
     c.x_mm = x_mm;
     c.y_mm = y_mm;
@@ -40,7 +40,7 @@ TEST(Sheet, steady_state_is_force_over_stiffness) {
     for (const SheetMaterial m : {SheetMaterial{1.4, 0.1}, SheetMaterial{7, 0.3}, SheetMaterial{4, 0.3}}) {
         sheet.reset();
         sheet.set_material(m);
-        sheet.press(std::vector{finger(50.5, 38.5, 2.5)});
+        sheet.press(std::vector{finger_at(50.5, 38.5, 2.5)});
         for (int i = 0; i < 600; ++i) sheet.step(1.0 / 60);
         EXPECT_NEAR(height_at(sheet, 50, 38), -2.5 / m.stiffness_n_per_mm, 1e-3 * 2.5 / m.stiffness_n_per_mm);
     }
@@ -51,7 +51,7 @@ TEST(Sheet, time_constant_is_viscosity_over_stiffness_at_any_frame_rate) {
     for (const int rate : {30, 60, 144}) {
         Sheet sheet({64, 64, 1});
         sheet.set_material(m);
-        sheet.press(std::vector{finger(32.5, 32.5)});
+        sheet.press(std::vector{finger_at(32.5, 32.5)});
         for (int i = 1; i <= rate; ++i) {
             sheet.step(1.0 / rate);
             const double expected = -0.25 * (1 - std::exp(-(1.0 * i / rate) / 0.2));
@@ -64,7 +64,7 @@ TEST(Sheet, implicit_euler_solves_equation_3_as_printed) {
     const double k = 1.4, nu = 0.1, ts = 1.0 / 30;
     Sheet sheet({64, 64, 1});
     sheet.set_material({k, nu});
-    sheet.press(std::vector{finger(32.5, 32.5)});
+    sheet.press(std::vector{finger_at(32.5, 32.5)});
     double e = 0;
     for (int i = 0; i < 10; ++i) {
         sheet.step(ts, TimeScheme::implicit_euler);
@@ -76,7 +76,7 @@ TEST(Sheet, implicit_euler_solves_equation_3_as_printed) {
 
 TEST(Sheet, relaxes_to_exact_rest_and_then_costs_nothing) {
     Sheet sheet({130, 90, 0.5});
-    sheet.press(std::vector{finger(20, 20), finger(64.9, 44.9, 3)});
+    sheet.press(std::vector{finger_at(20, 20), finger_at(64.9, 44.9, 3)});
     sheet.step(0.5);
     EXPECT_FALSE(is_flat(sheet));
     sheet.press({});
@@ -94,7 +94,7 @@ TEST(Sheet, relaxes_to_exact_rest_and_then_costs_nothing) {
 
 TEST(Sheet, a_held_contact_comes_to_a_stop) {
     Sheet sheet({128, 128, 1});
-    const std::vector held{finger(40, 40)};
+    const std::vector held{finger_at(40, 40)};
     int steps = 0;
     do {
         sheet.press(held);
@@ -105,7 +105,7 @@ TEST(Sheet, a_held_contact_comes_to_a_stop) {
     sheet.press(held);
     sheet.step(1.0 / 60);
     EXPECT_TRUE(sheet.take_changes().empty());
-    sheet.press(std::vector{finger(41, 40)});
+    sheet.press(std::vector{finger_at(41, 40)});
     sheet.step(1.0 / 60);
     EXPECT_FALSE(sheet.take_changes().empty());
 }
@@ -114,7 +114,7 @@ TEST(Sheet, a_rub_leaves_a_trail) {
     Sheet sheet({200, 60, 1});
     sheet.set_material({4, 2});  // 0.5 s
     for (int i = 0; i <= 60; ++i) {
-        sheet.press(std::vector{finger(30 + 2.0 * i, 30)});
+        sheet.press(std::vector{finger_at(30 + 2.0 * i, 30)});
         sheet.step(1.0 / 60);
     }
     // Behind the finger the sheet is still down, falling off with the time since; ahead it is not.
@@ -124,7 +124,8 @@ TEST(Sheet, a_rub_leaves_a_trail) {
 }
 
 TEST(Sheet, pressures_of_several_fingers_add_up) {
-    const std::vector five{finger(20, 20), finger(35, 22), finger(50, 25, 2), finger(65, 22), finger(80, 30)};
+    const std::vector five{finger_at(20, 20), finger_at(35, 22), finger_at(50, 25, 2), finger_at(65, 22),
+                           finger_at(80, 30)};
     Sheet all({100, 60, 1}), one({100, 60, 1});
     all.press(five);
     std::vector<double> sum(100 * 60);
@@ -140,7 +141,7 @@ TEST(Sheet, pressures_of_several_fingers_add_up) {
 
 // By the formula of the contact, ellipse and angle and all, on every node.
 TEST(Sheet, pressure_is_the_published_shape_over_an_ellipse) {
-    ContactEllipse c = finger(37.3, 21.9, 1.7);
+    ContactEllipse c = finger_at(37.3, 21.9, 1.7);
     c.half_width_mm = 4;
     c.half_height_mm = 7;
     c.angle_rad = 0.5;
@@ -177,7 +178,7 @@ TEST(Sheet, normals_are_those_of_the_heights) {
         }
     };
     for (int i = 0; i < 20; ++i) {
-        ContactEllipse c = finger(3.0 * i, 1.9 * i);
+        ContactEllipse c = finger_at(3.0 * i, 1.9 * i);
         c.half_width_mm = c.half_height_mm = 1 + 0.2 * i;
         sheet.press(std::vector{c});
         sheet.step(0.03);
@@ -200,7 +201,7 @@ TEST(Sheet, a_map_gives_every_node_its_own_material) {
     mapped.set_materials(levels, palette);
     soft.set_material(soft_one);
     hard.set_material(hard_one);
-    const std::vector pressed{finger(30, 20, 2)};
+    const std::vector pressed{finger_at(30, 20, 2)};
     for (int i = 0; i < 50; ++i) {
         for (Sheet* sheet : {&mapped, &soft, &hard}) {
             sheet->press(pressed);
@@ -214,7 +215,7 @@ TEST(Sheet, a_map_gives_every_node_its_own_material) {
 
 TEST(Sheet, changes_hold_every_node_that_moved) {
     Sheet sheet({300, 200, 1});
-    sheet.press(std::vector{finger(100, 100)});
+    sheet.press(std::vector{finger_at(100, 100)});
     sheet.step(0.1);
     const NodeRect changed = sheet.take_changes();
     EXPECT_LT(changed.width, 120);

@@ -15,12 +15,12 @@ namespace {
 
 using test::BallPass;
 
-CarvedField block(double cell) {
+CarvedField block_of(double cell) {
     return CarvedField(std::make_unique<BoxShape>(Box3{{0, 0, -10}, {40, 30, 0}}), cell);
 }
 
 TEST(Contour, of_a_box_is_that_box) {
-    const TriangleMesh mesh = contour(block(0.4));
+    const TriangleMesh mesh = contour(block_of(0.4));
     EXPECT_TRUE(is_closed(mesh));
     EXPECT_NEAR(volume_mm3(mesh), 40 * 30 * 10, 0.01);
     EXPECT_NEAR(area_mm2(mesh), 2 * (40 * 30 + 40 * 10 + 30 * 10), 0.01);
@@ -31,11 +31,11 @@ TEST(Contour, of_a_box_is_that_box) {
 
 TEST(Contour, spends_few_triangles_on_flats) {
     // A uniform grid would need 2 x (100 x 75) x 2 + ... = 44,000 triangles.
-    EXPECT_LT(contour(block(0.4)).triangles.size(), 14000u);
+    EXPECT_LT(contour(block_of(0.4)).triangles.size(), 14000u);
 }
 
 TEST(Contour, of_grooves_is_closed_and_has_their_volume) {
-    auto f = block(0.3);
+    auto f = block_of(0.3);
     double removed = 0;
     for (double y = 5; y < 26; y += 2) {
         removed += f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y, 2.7}, 4));
@@ -47,7 +47,7 @@ TEST(Contour, of_grooves_is_closed_and_has_their_volume) {
 }
 
 TEST(Contour, in_parts_is_the_whole) {
-    auto f = block(0.4);
+    auto f = block_of(0.4);
     for (double y = 5; y < 26; y += 2)
         f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
     constexpr int kEdge = 4;
@@ -74,7 +74,7 @@ TEST(Contour, in_parts_is_the_whole) {
 }
 
 TEST(Contour, vertices_lie_on_the_exact_surface) {
-    auto f = block(0.3);
+    auto f = block_of(0.3);
     for (double y = 5; y < 26; y += 2)
         f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
     const TriangleMesh mesh = contour(f);
@@ -89,7 +89,7 @@ TEST(Contour, vertices_lie_on_the_exact_surface) {
 // Where a crest meets a wall three faces have a corner: no triangle cuts it off.
 TEST(Contour, of_grooves_through_walls_keeps_their_corners) {
     for (const double cell : {0.2, 0.3, 0.4, 0.5}) {
-        auto f = block(cell);
+        auto f = block_of(cell);
         for (double y = 5; y < 26; y += 2)
             f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
         const TriangleMesh mesh = contour(f);
@@ -111,7 +111,7 @@ TEST(Contour, of_random_grooves_has_its_vertices_on_the_surface) {
     constexpr double cell = 0.3;
     std::size_t off = 0, all = 0;
     for (std::uint64_t seed = 0; seed < 3; ++seed) {
-        auto f = block(cell);
+        auto f = block_of(cell);
         const CounterNoise noise(seed);
         std::uint64_t drawn = 0;
         const auto between = [&](double a, double b) { return a + (b - a) * noise.uniform(drawn++); };
@@ -134,7 +134,7 @@ TEST(Contour, of_random_grooves_has_its_vertices_on_the_surface) {
 // In a hurry: closed, and within the sagitta of a cell of the surface but at the cusps.
 TEST(Contour, that_is_rough_is_closed_and_near_the_surface) {
     constexpr double cell = 0.3;
-    auto field = block(cell);
+    auto field = block_of(cell);
     for (double y = 5; y < 26; y += 2)
         field.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
     ContourOptions options;
@@ -155,7 +155,7 @@ TEST(Contour, that_is_rough_is_closed_and_near_the_surface) {
 
 // Where it is cut the block keeps its edges: of its sides no strip is taken for machined surface.
 TEST(Contour, that_is_rough_leaves_the_faces_of_the_blank_flat_up_to_their_edges) {
-    auto field = block(0.3);
+    auto field = block_of(0.3);
     for (double y = 5; y < 26; y += 2)
         field.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
     ContourOptions options;
@@ -175,13 +175,13 @@ TEST(Contour, that_is_rough_leaves_the_faces_of_the_blank_flat_up_to_their_edges
 }
 
 TEST(Contour, keeps_corners_sharp) {
-    auto f = block(0.3);
+    auto f = block_of(0.3);
     f.carve(std::make_unique<BoxShape>(Box3{{10.1, 8.2, -6.3}, {20.4, 17.7, 5}}));
     const TriangleMesh mesh = contour(f);
     EXPECT_NEAR(area_mm2(mesh), 2 * (40 * 30 + 40 * 10 + 30 * 10) + 2 * 6.3 * (10.3 + 9.5), 0.05);
 }
 
-void expect_solid(const TriangleMesh& mesh) {
+void expect_closed_solid(const TriangleMesh& mesh) {
     EXPECT_TRUE(is_closed(mesh));
     const tribo::test::SelfIntersections found(mesh);
     EXPECT_EQ(found.pairs().size(), 0u);
@@ -189,12 +189,12 @@ void expect_solid(const TriangleMesh& mesh) {
 
 TEST(Contour, of_grooves_does_not_meet_itself) {
     for (const double cell : {0.2, 0.37, 0.8}) {
-        auto f = block(cell);
+        auto f = block_of(cell);
         for (double y = 5; y < 26; y += 2) {
             f.carve(std::make_unique<BallPass>(Vec3{-10, y, 2.7}, Vec3{50, y + 1, 2.7}, 4));
             f.carve(std::make_unique<BallPass>(Vec3{y, -10, 2.6}, Vec3{y + 2, 50, 2.6}, 4));
         }
-        expect_solid(contour(f));
+        expect_closed_solid(contour(f));
     }
 }
 
@@ -203,11 +203,11 @@ TEST(Contour, keeps_a_wall_that_is_thinner_than_a_cell) {
     for (const double cell : {0.3, 0.5}) {
         for (const double width : {0.02, 0.1, 0.25}) {
             for (double y = 15; y < 15.6; y += 0.117) {
-                auto f = block(cell);
+                auto f = block_of(cell);
                 f.carve(std::make_unique<BoxShape>(Box3{{-5, y - 6, -6.3}, {50, y, 5}}));
                 f.carve(std::make_unique<BoxShape>(Box3{{-5, y + width, -6.3}, {50, y + width + 6, 5}}));
                 const TriangleMesh mesh = contour(f);
-                expect_solid(mesh);
+                expect_closed_solid(mesh);
                 // Its top and its ends, 40 + 2 x 6.3 mm long, become a ridge within their cells.
                 EXPECT_NEAR(volume_mm3(mesh), 40 * 30 * 10 - 40 * 6.3 * 12,
                             0.5 * cell * width * (40 + 2 * 6.3) + 0.01 * cell * cell * 40)
@@ -234,7 +234,7 @@ TEST(Contour, of_wide_layers_and_of_solids_far_above_each_other) {
 }
 
 TEST(Contour, of_nothing_is_empty) {
-    auto f = block(0.5);
+    auto f = block_of(0.5);
     f.carve(std::make_unique<BoxShape>(Box3{{-5, -5, -20}, {50, 50, 5}}));
     EXPECT_TRUE(contour(f).triangles.empty());
 }

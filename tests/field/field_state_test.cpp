@@ -16,7 +16,7 @@ namespace {
 
 using test::BallPass;
 
-CarvedField block() {
+CarvedField stored_block() {
     return {std::make_unique<BoxShape>(Box3{{0, 0, -6}, {12, 10, 0}}), 0.25};
 }
 
@@ -68,7 +68,7 @@ TEST(FieldState, is_gone_back_to_with_the_same_bits) {
     for (std::uint64_t seed = 0; seed < 8; ++seed) {
         SCOPED_TRACE(seed);
         const CounterNoise noise(seed), choice(1000 + seed);
-        CarvedField field = block();
+        CarvedField field = stored_block();
         std::optional<FieldReader> reader;
         if (seed % 2 == 1) reader.emplace(field);
         std::vector<FieldState> states{field.state()};
@@ -84,7 +84,7 @@ TEST(FieldState, is_gone_back_to_with_the_same_bits) {
             ASSERT_EQ(field.removed_mm3(), state.removed_mm3);
             const std::size_t again = choice.bits(200 + n) % (field.shapes_to_carve_again() + 1);
             field.carve_again(again);
-            CarvedField once = block();
+            CarvedField once = stored_block();
             for (std::uint64_t s = 0; s < state.shapes + again; ++s) once.carve(pass(noise, s));
             if (reader) {
                 EXPECT_TRUE(reader->refresh());
@@ -100,7 +100,7 @@ TEST(FieldState, is_gone_back_to_with_the_same_bits) {
         }
         field.carve_again(field.shapes_to_carve_again());
         field.carve(pass(noise, kShapes));
-        CarvedField once = block();
+        CarvedField once = stored_block();
         for (std::uint64_t s = 0; s <= kShapes; ++s) once.carve(pass(noise, s));
         reader.reset();
         expect_same_bricks(field, once);
@@ -108,7 +108,7 @@ TEST(FieldState, is_gone_back_to_with_the_same_bits) {
 }
 
 TEST(FieldState, shares_what_did_not_change) {
-    CarvedField field = block();
+    CarvedField field = stored_block();
     field.carve(std::make_unique<BallPass>(Vec3{-2, 2, 1}, Vec3{14, 2, 1}, 2));
     const FieldState first = field.state();
     const std::size_t alone = own_bytes(first);

@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-ContactOptions options(double stiffness, double radius = 0) {
+ContactOptions spring_options(double stiffness, double radius = 0) {
     ContactOptions o;
     o.stiffness_n_per_mm = stiffness;
     o.probe_radius_mm = radius;
@@ -21,7 +21,7 @@ ContactOptions options(double stiffness, double radius = 0) {
 TEST(FieldContact, a_flat_floor_pushes_back_by_stiffness_times_depth) {
     const Floor floor;
     for (const double radius : {0.0, 0.5, 2.0}) {
-        FieldContact contact(floor, options(0.8, radius));
+        FieldContact contact(floor, spring_options(0.8, radius));
         EXPECT_FALSE(contact.update({0, 0, 3}).in_contact);
         for (int n = 0; n < 50; ++n) {
             const Vec3 probe{0.02 * n, 0.01 * n, radius - 0.3};
@@ -37,13 +37,13 @@ TEST(FieldContact, a_flat_floor_pushes_back_by_stiffness_times_depth) {
 
 TEST(FieldContact, a_probe_that_begins_in_the_material_is_brought_to_the_surface) {
     const Floor floor;
-    FieldContact contact(floor, options(1));
+    FieldContact contact(floor, spring_options(1));
     EXPECT_NEAR(contact.update({0, 0, -0.4}).force_n.z, 0.4, 1e-4);
 }
 
 TEST(FieldContact, a_corner_holds_the_proxy_by_both_its_sides) {
     const Corner corner;
-    FieldContact contact(corner, options(1));
+    FieldContact contact(corner, spring_options(1));
     contact.update({0.5, 0, 0.5});
     ProbeContact c;
     for (int n = 0; n < 100; ++n) c = contact.update({0.5 - 0.01 * n, 0.002 * n, 0.5 - 0.008 * n});
@@ -65,7 +65,7 @@ TEST(FieldContact, an_edge_holds_no_probe_that_moves_on_the_face_behind_it) {
     const Step step;
     for (const double height : {0.0, 5e-7, -5e-7}) {
         for (const double pace : {1e-3, 0.015, 0.4}) {
-            FieldContact contact(step, options(1));
+            FieldContact contact(step, spring_options(1));
             for (const double way : {1.0, -1.0}) {
                 for (int n = 0; n <= 100; ++n) {
                     const ProbeContact c = contact.update({way * pace * (n - 50), 0.1 * pace * n, height});
@@ -75,7 +75,7 @@ TEST(FieldContact, an_edge_holds_no_probe_that_moves_on_the_face_behind_it) {
         }
     }
     // A little below it the other face does hold.
-    FieldContact contact(step, options(1));
+    FieldContact contact(step, spring_options(1));
     ProbeContact c;
     for (int n = -50; n <= 50; ++n) c = contact.update({0.002 * n, 0, -1e-3});
     EXPECT_NEAR(c.force_n.x, -0.1, 1e-6);
@@ -84,7 +84,7 @@ TEST(FieldContact, an_edge_holds_no_probe_that_moves_on_the_face_behind_it) {
 // In the hollow of a groove the nearest surface point lies on the line from the axis through the probe.
 TEST(FieldContact, in_a_groove_the_force_is_that_of_the_nearest_surface_point) {
     const Grooves grooves(1, 0.025);
-    FieldContact contact(grooves, options(1));
+    FieldContact contact(grooves, spring_options(1));
     contact.update({-0.2, 0, 0.5});
     for (int n = 0; n <= 400; ++n) {
         const Vec3 probe{-0.2 + 0.001 * n, 0.001 * n, -0.3};

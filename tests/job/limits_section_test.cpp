@@ -7,7 +7,7 @@
 namespace tribo::job {
 namespace {
 
-FileResult<Job> job_with(const std::string& limits) {
+FileResult<Job> limits_job(const std::string& limits) {
     return parse_job(
         "[stock]\nbox_mm = [[0,0,0],[1,1,1]]\n[cutter]\nkind = \"flat\"\ndiameter_mm = 1\n[material]\nname = "
         "\"al7075-t6\"\n[path]\nkeyframes = \"a.csv\"\n[limits]\n" +
@@ -17,7 +17,7 @@ FileResult<Job> job_with(const std::string& limits) {
 
 TEST(LimitsSection, reads_what_it_states_and_leaves_the_rest_open) {
     const auto job =
-        job_with("force_n = 200\ndeflection_mm = 0.02\nspindle = [[1000, 50, 0.5], [20000, 800, 0.4]]\n");
+        limits_job("force_n = 200\ndeflection_mm = 0.02\nspindle = [[1000, 50, 0.5], [20000, 800, 0.4]]\n");
     ASSERT_TRUE(job) << job.error().text();
     const JobLimits& limits = job->limits;
     EXPECT_EQ(limits.force_n, 200);
@@ -48,7 +48,7 @@ TEST(LimitsSection, refuses_what_is_no_limit) {
              Case{"spindle = [[1000, 50, 1]]\npower_w = 50\n", "stands beside 'spindle'"},
              Case{"stress = 700\n", "try 'stress_n_per_mm2'"},
          }) {
-        const auto job = job_with(text);
+        const auto job = limits_job(text);
         ASSERT_FALSE(job) << text;
         EXPECT_NE(job.error().text().find(says), std::string::npos) << job.error().text();
     }

@@ -14,7 +14,7 @@
 namespace tribo::job {
 namespace {
 
-constexpr const char* kRest =
+constexpr const char* kJobRest =
     "[stock]\nbox_mm = [[0, 0, -10], [40, 30, 0]]\n"
     "[cutter]\nkind = \"flat\"\ndiameter_mm = 6\nflutes = 2\nlength_mm = 20\n"
     "[material]\nname = \"al7075-t6\"\n[process]\nspindle_rpm = 6000\n"
@@ -40,7 +40,7 @@ MemorySource files_with(const std::string& sections, const std::string& response
     MemorySource files;
     files.put("slot.nc", "G21 G90 M3 F600\nG0 X-10 Y5 Z-2\nG1 X50\nM30\n");
     files.put("tap.csv", response);
-    files.put("a.toml", kRest + sections);
+    files.put("a.toml", kJobRest + sections);
     return files;
 }
 
@@ -115,7 +115,7 @@ TEST(ResponseModes, name_the_file_that_has_none) {
 // Of an earlier job only the stock counts.
 TEST(ResponseModes, of_an_earlier_job_are_not_read) {
     MemorySource files = files_with("[[frf]]\nfile = \"gone.csv\"\ndirection = [1, 0, 0]\n");
-    std::string second = kRest;
+    std::string second = kJobRest;
     second.replace(0, second.find("[cutter]"), "[stock]\nfrom = \"a.toml\"\n");
     files.put("b.toml", second + kFrf);
     const auto loaded = load_job(files, "b.toml");
@@ -144,7 +144,7 @@ TEST(ResponseModes, refuse_wrong_keys_by_their_line) {
           Case{kFrf + "modes = 1.5\n", 17, "'modes'"}, Case{kFrf + "unit = \"m\"\n", 17, "mm/N"},
           Case{kFrf + "[dynamics]\nestimate = true\n", 18, "the job has modes of the tool"},
           Case{kFrf + "unti = \"m/N\"\n", 17, "try 'unit'"}}) {
-        const auto job = parse_job(kRest + c.section, "a.toml", MemorySource());
+        const auto job = parse_job(kJobRest + c.section, "a.toml", MemorySource());
         ASSERT_FALSE(job) << c.section;
         EXPECT_EQ(job.error().line, c.line) << job.error().text();
         EXPECT_NE(job.error().text().find(c.fragment), std::string::npos) << job.error().text();

@@ -18,22 +18,23 @@ using namespace tribo::motion::testing;
 
 namespace {
 
-double uniform(double low, double high) {
+double uniform_between(double low, double high) {
     return low + (high - low) * *rc::gen::inRange(0, 1000001) * 1e-6;
 }
 Vec3 random_vector(double range) {
-    const double x = uniform(-range, range), y = uniform(-range, range), z = uniform(-range, range);
+    const double x = uniform_between(-range, range), y = uniform_between(-range, range),
+                 z = uniform_between(-range, range);
     return {x, y, z};
 }
 
 BezierMotion random_motion() {
     std::vector<DualQuaternion> units{
-        displacement(normalized(Quaternion(uniform(-1, 1), random_vector(1))), random_vector(80))};
+        displacement(normalized(Quaternion(uniform_between(-1, 1), random_vector(1))), random_vector(80))};
     std::vector<double> weights{1};
     for (int i = *rc::gen::inRange(1, 5); i > 0; --i) {
         units.push_back(displacement(normalized(Quaternion(1, random_vector(0.4))), random_vector(10)) *
                         units.back());
-        weights.push_back(uniform(0.5, 2));
+        weights.push_back(uniform_between(0.5, 2));
     }
     return weighted_motion(units, weights);
 }
@@ -42,7 +43,7 @@ BezierMotion random_motion() {
 
 RC_GTEST_PROP(SweptCircle, is_where_the_circle_of_the_moving_cutter_is, ()) {
     const BezierMotion m = random_motion();
-    const double radius = uniform(0.5, 20), height = uniform(0, 30);
+    const double radius = uniform_between(0.5, 20), height = uniform_between(0, 30);
     const std::array<SweptPatch, 4> patches = swept_circle(m, radius, height);
     for (std::size_t k = 0; k < 4; ++k) {
         RC_ASSERT(patches[k].degree_u == 2 * m.degree());
@@ -69,7 +70,7 @@ RC_GTEST_PROP(SweptCircle, is_where_the_circle_of_the_moving_cutter_is, ()) {
 RC_GTEST_PROP(SweptCircle, of_a_spline_motion_joins_from_piece_to_piece_and_quarter_to_quarter, ()) {
     std::vector<Keyframe> keys;
     for (int i = 0; i < 5; ++i)
-        keys.push_back({{{10.0 * i + uniform(-2, 2), uniform(-3, 3), uniform(-3, 3)},
+        keys.push_back({{{10.0 * i + uniform_between(-2, 2), uniform_between(-3, 3), uniform_between(-3, 3)},
                          normalized(Vec3{0, 0, 2} + random_vector(1))}});
     const Result<KeyframeMotion> m = interpolate_keyframes(keys);
     RC_ASSERT(m.has_value());
@@ -77,7 +78,7 @@ RC_GTEST_PROP(SweptCircle, of_a_spline_motion_joins_from_piece_to_piece_and_quar
     RC_ASSERT(pieces.size() == 4u);
     for (std::size_t i = 0; i < pieces.size(); ++i)
         for (std::size_t k = 0; k < 4; ++k) {
-            const double t = uniform(0, 1);
+            const double t = uniform_between(0, 1);
             RC_ASSERT(distance(pieces[i][k].point(t, 1), pieces[i][(k + 1) % 4].point(t, 0)) < 1e-9);
             if (i + 1 < pieces.size())
                 RC_ASSERT(distance(pieces[i][k].point(1, t), pieces[i + 1][k].point(0, t)) < 1e-9);
@@ -86,7 +87,7 @@ RC_GTEST_PROP(SweptCircle, of_a_spline_motion_joins_from_piece_to_piece_and_quar
 
 RC_GTEST_PROP(SweptCircle, has_the_normal_of_its_differences, ()) {
     const std::array<SweptPatch, 4> patches = swept_circle(random_motion(), 6);
-    const double u = uniform(0.1, 0.9), v = uniform(0.1, 0.9), h = 1e-5;
+    const double u = uniform_between(0.1, 0.9), v = uniform_between(0.1, 0.9), h = 1e-5;
     const SweptPatch& p = patches[static_cast<std::size_t>(*rc::gen::inRange(0, 4))];
     const Vec3 by_u = p.point(u + h, v) - p.point(u - h, v), by_v = p.point(u, v + h) - p.point(u, v - h);
     RC_PRE(length(cross(normalized(by_u), normalized(by_v))) > 0.05);
@@ -170,8 +171,8 @@ TEST(SweptCircle, borders_the_solid_that_is_cut) {
 
 RC_GTEST_PROP(FlankEnvelope, touches_the_flank_where_it_moves_along_itself, ()) {
     const BezierMotion m = random_motion();
-    const double radius = uniform(1, 10), height = uniform(0, 30);
-    const PoseRates r = rates(m, uniform(0, 1));
+    const double radius = uniform_between(1, 10), height = uniform_between(0, 30);
+    const PoseRates r = rates(m, uniform_between(0, 1));
     const auto points = flank_grazing_points(r, radius, height);
     RC_PRE(points.has_value());
     const Vec3 centre = r.pose.tip_mm + height * r.pose.axis;

@@ -2,8 +2,8 @@
 #include "motion/path/timing.hpp"
 
 #include <cmath>
-#include <numbers>
 
+#include "base/math.hpp"
 #include "motion/algebra/direction.hpp"
 #include "motion/path/path.hpp"
 #include "random_poses.hpp"
@@ -13,8 +13,6 @@ using namespace tribo::motion;
 using namespace tribo::motion::testing;
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 Move line(Vec3 a, Vec3 b, double feed = 600, MoveKind kind = MoveKind::feed) {
     Move m;
@@ -118,7 +116,7 @@ TEST(Timing, a_turn_faster_than_the_axes_allow_takes_the_time_of_the_turn) {
     const std::vector<Move> moves{spot};
     const Result<Schedule> s = schedule(moves);
     ASSERT_TRUE(s);
-    EXPECT_NEAR(angle_rad(pose_at_time(moves, *s, 0.25).axis, {0, 0, 1}), kPi / 8, 1e-14);
+    EXPECT_NEAR(angle_rad(pose_at_time(moves, *s, 0.25).axis, {0, 0, 1}), math::kPi / 8, 1e-14);
 }
 
 TEST(Timing, one_move_from_rest_to_rest_is_a_trapezoid_or_a_triangle) {
@@ -186,7 +184,7 @@ TEST(Timing, look_ahead_brakes_over_several_short_moves) {
 
 TEST(Timing, a_curve_is_run_no_faster_than_its_curvature_allows) {
     Move arc = line({2, 0, 0}, {-2, 0, 0}, 6000);
-    arc.arc = Arc{{0, 0, 0}, {0, 0, 1}, kPi};
+    arc.arc = Arc{{0, 0, 0}, {0, 0, 1}, math::kPi};
     const Result<Schedule> s = schedule(std::vector<Move>{arc}, with_acceleration(50));
     ASSERT_TRUE(s);
     EXPECT_NEAR(s->moves[0].peak_mm_per_s, 10, 1e-12);

@@ -16,7 +16,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double kPi = std::numbers::pi;
-constexpr double kRate = test::kEarRate;
+constexpr double kHeadRate = test::kEarRate;
 
 // Pressure at the ear of a rigid sphere, time e^{i w t}, by the standard library's Bessel functions.
 Complex sphere_pressure(double hz, double angle) {
@@ -39,7 +39,7 @@ std::array<Complex, 2> response(const Head& head, Vec3 direction, double hz) {
     for (std::size_t ear = 0; ear < 2; ++ear) {
         for (std::size_t k = 0; k < kHeadTaps; ++k) {
             out[ear] += static_cast<double>(heard.taps[ear][k]) *
-                        std::polar(1.0, -2 * kPi * hz / kRate * static_cast<double>(k));
+                        std::polar(1.0, -2 * kPi * hz / kHeadRate * static_cast<double>(k));
         }
         out[ear] *= std::polar(1.0, -2 * kPi * hz * heard.delay_s[ear]);
     }
@@ -69,7 +69,7 @@ TEST(SphereHead, has_the_arrival_offset_of_a_rigid_sphere_within_10_us) {
 TEST(SphereHead, shades_the_far_ear_as_a_rigid_sphere_does) {
     const auto shelf = [](Vec3 d, double hz) {  // of the outer ear; 1 in front
         const double g = std::pow(10, -8.0 / 20 * std::pow(0.5 * (1 - d.y), 2));
-        const double f = std::tan(kPi * hz / kRate) / std::tan(kPi * 3000 / kRate);
+        const double f = std::tan(kPi * hz / kHeadRate) / std::tan(kPi * 3000 / kHeadRate);
         return std::abs(Complex(1, g * f) / Complex(1, f));
     };
     const Vec3 right{std::cos(kPi / 18), -std::sin(kPi / 18), 0};
@@ -109,7 +109,7 @@ TEST(SphereHead, is_the_same_at_other_sample_rates) {
 }
 
 TEST(PanningHead, keeps_the_power_and_has_no_delays) {
-    const auto pan = Head::panning(kRate);
+    const auto pan = Head::panning(kHeadRate);
     EarResponses heard;
     for (int azimuth = 0; azimuth < 360; azimuth += 5) {
         pan->hear(5 * horizontal(azimuth), heard);
@@ -152,7 +152,7 @@ HrirSet clicks(double rate_hz) {
 
 TEST(MeasuredHead, takes_delays_and_levels_from_the_responses_at_any_rate) {
     for (const double rate : {44100.0, 96000.0}) {
-        const auto head = Head::measured(clicks(rate), kRate);
+        const auto head = Head::measured(clicks(rate), kHeadRate);
         ASSERT_TRUE(head);
         for (const Vec3 d : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{-0.5, 0.5, std::sqrt(0.5)}, Vec3{0, 0, -1}}) {
             EarResponses heard;
@@ -171,7 +171,7 @@ TEST(MeasuredHead, takes_delays_and_levels_from_the_responses_at_any_rate) {
                 Complex sum;
                 for (std::size_t k = 0; k < kHeadTaps; ++k) {
                     sum += static_cast<double>(heard.taps[ear][k]) *
-                           std::polar(1.0, -2 * kPi * hz / kRate * static_cast<double>(k));
+                           std::polar(1.0, -2 * kPi * hz / kHeadRate * static_cast<double>(k));
                 }
                 return std::abs(sum);
             };

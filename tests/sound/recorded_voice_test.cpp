@@ -4,15 +4,13 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
-#include <numbers>
 
+#include "base/math.hpp"
 #include "base/noise_hash.hpp"
 #include "sound/cuts.hpp"
 
 namespace tribo::sound {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // A machine at 6000 rpm, 100 turns a second: lines at the orders 4 and 8, and noise 30 dB under them.
 const std::shared_ptr<const Recording>& machine() {
@@ -25,8 +23,8 @@ const std::shared_ptr<const Recording>& machine() {
     const CounterNoise noise(3);
     for (std::size_t n = 0; n < static_cast<std::size_t>(seconds * rate_hz); ++n) {
         const double t = static_cast<double>(n) / rate_hz;
-        r.samples.push_back(static_cast<float>(0.2 * std::sin(2 * kPi * 400 * t) +
-                                               0.1 * std::sin(2 * kPi * 800 * t + 1) +
+        r.samples.push_back(static_cast<float>(0.2 * std::sin(2 * math::kPi * 400 * t) +
+                                               0.1 * std::sin(2 * math::kPi * 800 * t + 1) +
                                                0.005 * noise.gaussian(n)));
     }
     return made = std::make_shared<const Recording>(std::move(r));
@@ -136,7 +134,7 @@ TEST(Body, has_the_modes_of_a_clamped_bar_and_leaves_low_sound_alone) {
         for (int q = 0; q < 400; ++q) {
             Quantum x;
             for (int n = 0; n < 64; ++n) {
-                x[static_cast<std::size_t>(n)] = std::sin(2 * kPi * hz / 48000 * (64 * q + n));
+                x[static_cast<std::size_t>(n)] = std::sin(2 * math::kPi * hz / 48000 * (64 * q + n));
             }
             filter.apply(x);
             for (const double v : x) out.push_back(static_cast<float>(v));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "base/math.hpp"
 #include "sound/cuts.hpp"
 #include "sound/ears.hpp"
 
@@ -18,14 +19,14 @@ using test::sphere;
 using test::standing;
 using test::tone;
 
-constexpr double kPi = std::numbers::pi, kRate = test::kEarRate;
+constexpr double kSourceRate = test::kEarRate;
 
 std::span<const float> late(const std::vector<float>& x, std::size_t count) {
     return std::span(x).last(count);
 }
 
 TEST(SpatialSource, that_circles_the_head_leaves_no_stray_energy) {
-    for (const auto& head : {sphere(), Head::panning(kRate)}) {
+    for (const auto& head : {sphere(), Head::panning(kSourceRate)}) {
         SpatialSource source(head);
         const Heard heard = hear(source, 3000, tone(1000), circling(2, 2));
         EXPECT_LT(test::stray_db(late(heard.left, 1 << 17), 1000), -75);
@@ -59,7 +60,8 @@ TEST(SpatialSource, sounds_as_late_as_the_air_brings_it) {
     const double start = phase(1);
     for (const double metres : {1.1, 1.2345, 3.0, 11.0, 40.0}) {
         const double turns = (metres - 1) / kSoundSpeed * 500;
-        EXPECT_NEAR(std::remainder(start - phase(metres) - 2 * kPi * turns, 2 * kPi), 0, 2e-3) << metres;
+        EXPECT_NEAR(std::remainder(start - phase(metres) - 2 * math::kPi * turns, 2 * math::kPi), 0, 2e-3)
+            << metres;
     }
 }
 
@@ -68,9 +70,10 @@ double pitch(std::span<const float> x, double hz) {
     double best = hz;
     for (int round = 0; round < 4; ++round) {
         const std::size_t half = x.size() / 2;
-        const double turn = std::arg(phasor(x.subspan(half, half), best) / phasor(x.first(half), best) *
-                                     std::polar(1.0, -2 * kPi * best / kRate * static_cast<double>(half)));
-        best += turn / (2 * kPi) * kRate / static_cast<double>(half);
+        const double turn =
+            std::arg(phasor(x.subspan(half, half), best) / phasor(x.first(half), best) *
+                     std::polar(1.0, -2 * math::kPi * best / kSourceRate * static_cast<double>(half)));
+        best += turn / (2 * math::kPi) * kSourceRate / static_cast<double>(half);
     }
     return best;
 }
@@ -118,7 +121,7 @@ TEST(SpatialSource, hears_a_turned_head_like_a_turned_world) {
 TEST(SpatialSource, crosses_the_middle_of_the_head_without_a_step) {
     SpatialSource source(sphere());
     const Heard heard = hear(source, 1500, tone(200), [](double t) { return Vec3{0.2 * (t - 1), 0, 0}; });
-    const double w = 2 * kPi * 200 / kRate;
+    const double w = 2 * math::kPi * 200 / kSourceRate;
     for (const std::vector<float>* ear : {&heard.left, &heard.right}) {
         EXPECT_LT(test::roughest(std::span(*ear).subspan(2000)), 3 * w * w);
     }
@@ -136,7 +139,7 @@ TEST(SpatialSource, follows_a_leap_through_the_sound_barrier_without_a_click) {
     SpatialSource source(sphere());
     const Heard heard =
         hear(source, 1500, tone(300), [](double t) { return Vec3{0, t > 0.5 && t < 1 ? 31.0 : 1.0, 0}; });
-    const double w = 4 * 2 * kPi * 300 / kRate;
+    const double w = 4 * 2 * math::kPi * 300 / kSourceRate;
     EXPECT_LT(test::roughest(std::span(heard.left).subspan(2000)), 1.6 * w * w);
     for (const float v : heard.left) ASSERT_TRUE(std::isfinite(v));
 }
@@ -155,7 +158,7 @@ TEST(SpatialSource, is_silent_before_the_sound_arrives_and_after_it_has_passed) 
 }
 
 RC_GTEST_PROP(SpatialSource, stays_finite_and_bounded_wherever_it_is_put, ()) {
-    static const auto heads = {sphere(), Head::panning(kRate)};
+    static const auto heads = {sphere(), Head::panning(kSourceRate)};
     for (const auto& head : heads) {
         SpatialSource source(head);
         Ears ears;

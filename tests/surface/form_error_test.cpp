@@ -34,7 +34,7 @@ void add(ToothTraces& all, double x0, double z, int marks, Value&& value, double
 TEST(FormError, is_known_where_a_tooth_passed_and_nowhere_else) {
     ToothTraces all;
     for (int n = 0; n < 4; ++n) add(all, 0.5 * n, 1, 5, [](int) { return 0.02; }, 0.01 * n);
-    const FormError error(all, test::StraightWall());
+    const FormError error(all, tribo::test::StraightWall());
     EXPECT_NEAR(error.at({0.7, 0, 1}).value(), 0.02, 1e-7);
     EXPECT_NEAR(error.at({0.5, 0.01, 1.6}).value(), 0.02, 1e-7);
     EXPECT_FALSE(error.at({0.7, 0.1, 1}));  // beside the surface
@@ -52,7 +52,7 @@ TEST(FormError, between_two_heights_is_between_their_errors) {
     ToothTraces all;
     add(all, 0, 1, 5, [](int) { return 0.0; });
     add(all, 0, 2, 5, [](int) { return -0.01; });
-    const FormError error(all, test::StraightWall());
+    const FormError error(all, tribo::test::StraightWall());
     EXPECT_NEAR(error.at({0.25, 0, 1.3}).value(), -0.003, 1e-7);
     EXPECT_NEAR(error.at({0.25, 0, 2}).value(), -0.01, 1e-7);
 }
@@ -61,7 +61,7 @@ TEST(FormError, is_that_of_the_last_pass) {
     ToothTraces all;
     add(all, 0, 1, 5, [](int) { return 0.02; }, 0);
     add(all, 0, 1, 5, [](int) { return -0.03; }, 50);
-    const FormError error(all, test::StraightWall());
+    const FormError error(all, tribo::test::StraightWall());
     EXPECT_NEAR(error.at({0.25, 0, 1}).value(), -0.03, 1e-7);
 }
 
@@ -69,7 +69,7 @@ TEST(FormError, forgets_what_was_cut_away) {
     ToothTraces all;
     add(all, 0, 1, 5, [](int) { return 0.02; });
     for (ToothTrace& t : all.traces) t.from_mm.y = t.to_mm.y = -0.5;  // in front of the finished part
-    const FormError error(all, test::StraightWall());
+    const FormError error(all, tribo::test::StraightWall());
     EXPECT_TRUE(error.empty());
     EXPECT_EQ(error.extremes().left_mm, 0);
 }
@@ -80,7 +80,7 @@ TEST(FormError, of_a_short_wave_is_what_its_deepest_teeth_leave) {
     const auto alternate = [](int n) { return n % 2 == 0 ? -0.02 : 0.02; };
     add(all, 0, 1, 5, alternate, 0);
     add(all, 0.5, 1, 5, [&](int n) { return alternate(n + 1); }, 0.01);
-    const FormError error(all, test::StraightWall());
+    const FormError error(all, tribo::test::StraightWall());
     const double crest = -0.02 + 0.1 * 0.1 / (2 * 5);
     for (int n = 0; n < 10; ++n) {
         const double x = 0.05 + 0.1 * n;
@@ -98,7 +98,7 @@ TEST(FormError, of_a_long_wave_is_the_wave) {
         const auto value = [&](int n) { return height(0.5 * row + 0.1 * (n + 0.5)); };
         add(all, 0.5 * row, 1, 5, value, 0.01 * row);
     }
-    const FormError error(all, test::StraightWall());
+    const FormError error(all, tribo::test::StraightWall());
     for (double x = 0.3; x < 19; x += 0.37) {
         const double slope = 0.02 * w * std::cos(w * x);
         EXPECT_NEAR(error.at({x, 0, 1}).value(), height(x) - 5 * slope * slope / 2, 3e-4) << x;
@@ -108,7 +108,7 @@ TEST(FormError, of_a_long_wave_is_the_wave) {
 TEST(SurfaceWithFormError, stands_off_by_it) {
     ToothTraces all;
     add(all, 0, 1, 5, [](int) { return 0.015; });
-    const test::StraightWall plane;
+    const tribo::test::StraightWall plane;
     const FormError error(all, plane);
     const SurfaceWithFormError bent(plane, error);
     EXPECT_NEAR(bent.distance_mm({0.25, -0.015, 1}), 0, 1e-7);

@@ -45,7 +45,7 @@ TriangleMesh block_with_slot() {
                  {{0, 1, 4}, {1, 2, 3}, {1, 3, 4}, {0, 4, 5}, {0, 5, 7}, {5, 6, 7}});
 }
 
-DesignedSurface surface_of(const TriangleMesh& mesh) {
+DesignedSurface design_of(const TriangleMesh& mesh) {
     auto made = DesignedSurface::make(mesh);
     EXPECT_TRUE(made.has_value());
     EXPECT_TRUE(made->watertight());
@@ -64,7 +64,7 @@ DeviationReport compared(const field::CarvedField& machined, const DesignedSurfa
 
 TEST(NearestDeviation, a_missing_rib_is_a_gouge_of_half_its_thickness) {
     const auto machined = box_field({{0, 0, 0}, {40, kLength, 10}});
-    const auto report = compared(machined, surface_of(plate_with_rib()), 0.5);
+    const auto report = compared(machined, design_of(plate_with_rib()), 0.5);
     EXPECT_NEAR(report.gouge.mm, 1, 0.01);
     EXPECT_LT(report.rest.mm, 1e-6);
     // Both sides of the rib share what is missing; its narrow faces see the middle again, a triangle's worth.
@@ -73,7 +73,7 @@ TEST(NearestDeviation, a_missing_rib_is_a_gouge_of_half_its_thickness) {
 
 TEST(NearestDeviation, a_slot_that_was_not_cut_is_rest_of_half_its_width) {
     const auto machined = box_field({{0, 0, 0}, {40, kLength, 40}});
-    const auto report = compared(machined, surface_of(block_with_slot()), 0.5);
+    const auto report = compared(machined, design_of(block_with_slot()), 0.5);
     EXPECT_NEAR(report.rest.mm, 1, 0.01);
     EXPECT_LT(report.gouge.mm, 1e-6);
     EXPECT_EQ(report.unmeasured_mm2, 0);
@@ -81,7 +81,7 @@ TEST(NearestDeviation, a_slot_that_was_not_cut_is_rest_of_half_its_width) {
 
 TEST(NearestDeviation, the_corner_of_a_blank_that_was_left_counts_to_the_corner_of_the_design) {
     const auto machined = box_field({{0, 0, 0}, {20, 20, 20}});
-    const auto designed = surface_of(prism({{0, 0}, {17, 0}, {17, 16}, {0, 16}}, {{0, 1, 2}, {0, 2, 3}}));
+    const auto designed = design_of(prism({{0, 0}, {17, 0}, {17, 16}, {0, 16}}, {{0, 1, 2}, {0, 2, 3}}));
     const auto report = compared(machined, designed, 0.5);
     // The design is longer than the blank by 20 mm at y = 40: missing there, as deep as it is thick.
     EXPECT_NEAR(report.rest.mm, 5, 1e-4);
@@ -92,7 +92,7 @@ TEST(NearestDeviation, a_rib_cut_too_thin_on_one_side_is_gouged_by_as_much) {
     auto machined = box_field({{0, 0, 0}, {40, kLength, 40}});
     const Box3 cuts[] = {{{-1, -1, 10}, {19.3, 41, 41}}, {{21, -1, 10}, {41, 41, 41}}};
     for (const Box3& cut : cuts) machined.carve(std::make_unique<field::BoxShape>(cut));
-    const auto report = compared(machined, surface_of(plate_with_rib()), 0.5);
+    const auto report = compared(machined, design_of(plate_with_rib()), 0.5);
     EXPECT_NEAR(report.gouge.mm, 0.3, 1e-6);
     EXPECT_LT(report.rest.mm, 1e-6);
 }
@@ -105,7 +105,7 @@ TEST(NearestDeviation, folds_of_a_designs_mesh_are_no_deviation) {
     mesh.positions[4][0] = 36;
     mesh.positions[11][0] = 3;
     const auto machined = box_field({{0, 0, 0}, {40, kLength, 10}});
-    const auto designed = surface_of(mesh);
+    const auto designed = design_of(mesh);
     const auto report = compared(machined, designed, 0.3);
     EXPECT_LT(report.gouge.mm, 1e-6);
     EXPECT_LT(report.rest.mm, 1e-6);
@@ -155,7 +155,7 @@ RC_GTEST_PROP(NearestDeviation, rest_and_gouge_of_boxes_are_those_of_the_worst_p
             }
         }
     }
-    const auto report = compared(machined, surface_of(mesh), 0.2);
+    const auto report = compared(machined, design_of(mesh), 0.2);
     RC_ASSERT(report.rest.mm > rest - 1e-4);
     RC_ASSERT(report.rest.mm < rest + kOff + 1e-4);
     RC_ASSERT(report.gouge.mm > gouge - 0.02);

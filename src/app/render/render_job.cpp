@@ -15,11 +15,11 @@
 namespace tribo::app {
 namespace {
 
-constexpr double kMegabyte = 1e6;
+constexpr double kMB = 1e6;
 
 // Memory of every run, bytes, measured: the program itself; picture and page of the report; the tables of the
 // sound.
-constexpr double kProgramBytes = 15 * kMegabyte, kReportBytes = 58 * kMegabyte, kSoundBytes = 10 * kMegabyte;
+constexpr double kProgramBytes = 15 * kMB, kReportBytes = 58 * kMB, kSoundBytes = 10 * kMB;
 constexpr double kReportVertexBytes = 80;  // of the whole mesh, while it is reduced for the report
 // For a comparison with a design: a sample with its copy; a point of the machined surface; a triangle of the
 // design in trees and tables.
@@ -100,7 +100,7 @@ Result<void> check_memory(const std::string& file, const session::MillSetup& set
                           const std::optional<readers::Model>& part, RunOutputs outputs,
                           std::optional<double> memory_mb) {
     const double budget =
-        memory_mb ? *memory_mb * kMegabyte : static_cast<double>(files::default_memory_budget_bytes());
+        memory_mb ? *memory_mb * kMB : static_cast<double>(files::default_memory_budget_bytes());
     if (budget <= 0) return {};
     const auto shortage =
         session::memory_shortage(setup, budget, [&](const session::MemoryEstimate& estimate, double cell) {
@@ -110,13 +110,13 @@ Result<void> check_memory(const std::string& file, const session::MillSetup& set
     char cause[160], remedy[160];
     std::snprintf(cause, sizeof cause,
                   "the job takes about %.0f MB at a resolution of %.3g mm, and %.0f MB are allowed",
-                  shortage->need_bytes / kMegabyte, setup.cell_mm, budget / kMegabyte);
+                  shortage->need_bytes / kMB, setup.cell_mm, budget / kMB);
     if (shortage->fitting_cell_mm) {
         std::snprintf(remedy, sizeof remedy, "try --resolution %.2g, or allow more with --memory",
                       std::ceil(*shortage->fitting_cell_mm * 1e3) / 1e3);
     } else {
         std::snprintf(remedy, sizeof remedy, "allow at least %.0f MB with --memory",
-                      std::ceil(shortage->least_bytes / kMegabyte));
+                      std::ceil(shortage->least_bytes / kMB));
     }
     return fail_at(file, 0, 0, cause, remedy);
 }

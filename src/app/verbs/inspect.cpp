@@ -36,7 +36,7 @@ namespace {
 // Feed for programs that state none, so that they can be inspected without a job.
 constexpr double kAssumedFeedMmPerMin = 1000;
 
-struct Call {
+struct InspectCall {
     std::string file;
     bool json = false;
     std::string picture;
@@ -86,7 +86,7 @@ Found found_program(const motion::Program& program, PathWatcher& path, job::Path
 }
 
 // `refusals` receives all refusals of a program, where its reader gives more than the first.
-FileResult<Found> inspect_program(std::string_view bytes, const Call& call, job::PathKind kind,
+FileResult<Found> inspect_program(std::string_view bytes, const InspectCall& call, job::PathKind kind,
                                   std::vector<Error>& refusals) {
     job::JobMachine machine;
     if (!call.machine.empty()) {
@@ -160,7 +160,7 @@ FileResult<Found> inspect_job(std::string_view bytes, const std::string& file) {
     return found;
 }
 
-FileResult<Found> inspect_file(const Call& call, std::vector<Error>& refusals) {
+FileResult<Found> inspect_file(const InspectCall& call, std::vector<Error>& refusals) {
     const std::string& file = call.file;
     const FileResult<std::string> bytes = files::read_file(file);
     if (!bytes) return std::unexpected(bytes.error());
@@ -181,7 +181,7 @@ FileResult<Found> inspect_file(const Call& call, std::vector<Error>& refusals) {
          "a job (.toml), a frequency response (.csv, .uff) or a material (.json)"}));
 }
 
-int inspect(const Call& call) {
+int inspect(const InspectCall& call) {
     std::vector<Error> refusals;
     const FileResult<Found> found = inspect_file(call, refusals);
     if (!found) {
@@ -216,7 +216,7 @@ int inspect(const Call& call) {
 }  // namespace
 
 void add_inspect(CLI::App& program, int& exit_code) {
-    const auto call = std::make_shared<Call>();
+    const auto call = std::make_shared<InspectCall>();
     CLI::App* verb = program.add_subcommand(
         "inspect", "Say what a program, a model, a job or a frequency response holds, with warnings");
     verb->add_option("FILE", call->file,

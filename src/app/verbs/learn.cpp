@@ -26,7 +26,7 @@
 namespace tribo::app {
 namespace {
 
-struct Call {
+struct LearnCall {
     std::vector<std::string> recordings;
     std::string out, method = "yule-walker";
     material::Material known;  // values that are not learned; image paths as given
@@ -77,7 +77,7 @@ struct Sounds {
     Warnings warnings;
 };
 
-FileResult<Sounds> read_sounds(const Call& call) {
+FileResult<Sounds> read_sounds(const LearnCall& call) {
     Sounds sounds;
     for (const std::string& text : call.recordings) {
         const Result<Source> source = parse_source(text);
@@ -105,7 +105,7 @@ std::string image_beside(const std::string& image, const std::string& out) {
     return relative.empty() ? image : relative.generic_string();
 }
 
-material::Material material_of(const Call& call, const noise::Learned& learned,
+material::Material material_of(const LearnCall& call, const noise::Learned& learned,
                                const noise::LearningOptions& options, const Sounds& sounds) {
     material::Material m = material::learned_material(call.known, learned, options, sounds.sources);
     if (m.name.empty()) m.name = std::filesystem::path(call.out).stem().string();
@@ -125,13 +125,13 @@ void print(const material::Material& m, const noise::Learned& learned) {
                 m.voices.law.level_db, m.voices.law.db_per_decade_speed, m.voices.law.db_per_decade_force);
 }
 
-std::string report_file(const Call& call) {
+std::string report_file(const LearnCall& call) {
     return std::filesystem::path(call.out).replace_extension(".html").string();
 }
 
 // Reports one voice per model, with the first recording of this model.
-FileResult<void> write_report(const Call& call, const material::Material& m, const noise::Learned& learned,
-                              const Sounds& sounds) {
+FileResult<void> write_report(const LearnCall& call, const material::Material& m,
+                              const noise::Learned& learned, const Sounds& sounds) {
     std::vector<report::ReportedVoice> voices(m.voices.models.size());
     for (std::size_t n = learned.recordings.size(); n-- > 0;) {
         const auto model = static_cast<std::size_t>(learned.recordings[n].model);
@@ -144,7 +144,7 @@ FileResult<void> write_report(const Call& call, const material::Material& m, con
     return files::write_file(report_file(call), report::learning_report(m, learned, voices));
 }
 
-FileResult<void> check_height_map(const Call& call) {
+FileResult<void> check_height_map(const LearnCall& call) {
     const FileResult<files::Image> image = files::read_image(call.known.image);
     if (!image) return std::unexpected(image.error());
     const auto map = files::read_height_map(call.known.height_map, *image);
@@ -152,7 +152,7 @@ FileResult<void> check_height_map(const Call& call) {
     return {};
 }
 
-int learn(const Call& call) {
+int learn(const LearnCall& call) {
     FileResult<Sounds> sounds = read_sounds(call);
     if (!sounds) return report(sounds.error());
     if (!call.known.image.empty() && !std::filesystem::is_regular_file(call.known.image)) {
@@ -190,7 +190,7 @@ int learn(const Call& call) {
 }  // namespace
 
 void add_learn(CLI::App& program, int& exit_code) {
-    const auto call = std::make_shared<Call>();
+    const auto call = std::make_shared<LearnCall>();
     CLI::App* verb = program.add_subcommand("learn", "Learn a material from recordings of friction");
     verb->add_option("--recording", call->recordings,
                      "Speed of the finger in mm/s, force in N (1 if absent), WAV or FLAC file; once for each")

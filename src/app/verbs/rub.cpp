@@ -18,7 +18,7 @@
 namespace tribo::app {
 namespace {
 
-struct Call {
+struct RubCall {
     std::string material, stroke, out, interpolate = "mix";
     int sample_rate_hz = 0, bits = 24;
     std::uint64_t seed = 1;
@@ -33,7 +33,7 @@ int rate_of(const noise::MaterialVoices& voices) {
     return one && rate == std::floor(rate) && rate >= 8000 && rate <= 192000 ? static_cast<int>(rate) : 48000;
 }
 
-FileResult<void> write_sound(const Call& call, const noise::MaterialVoices& voices,
+FileResult<void> write_sound(const RubCall& call, const noise::MaterialVoices& voices,
                              const std::vector<readers::FingerPoint>& points) {
     noise::FrictionOptions options;
     options.sample_rate_hz = call.sample_rate_hz > 0 ? call.sample_rate_hz : rate_of(voices);
@@ -64,7 +64,7 @@ FileResult<void> write_sound(const Call& call, const noise::MaterialVoices& voic
     return wav->finish();
 }
 
-int rub(const Call& call) {
+int rub(const RubCall& call) {
     const FileResult<material::Material> material = material::read_material(call.material);
     if (!material) return report(material.error());
     if (material->voices.models.empty()) {
@@ -86,7 +86,7 @@ int rub(const Call& call) {
 }  // namespace
 
 void add_rub(CLI::App& program, int& exit_code) {
-    const auto call = std::make_shared<Call>();
+    const auto call = std::make_shared<RubCall>();
     CLI::App* verb = program.add_subcommand("rub", "Friction sound of a stroke over a material");
     verb->add_option("MATERIAL", call->material, "Material file (JSON) with voices")->required();
     verb->add_option("--stroke", call->stroke, "Where the finger goes: t_s,x_mm,y_mm,force_n")

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Call {
+struct SiteCall {
     std::string out, web_root;
 };
 
@@ -34,7 +34,7 @@ std::vector<std::string> files_of(const std::string& folder) {
     return files;
 }
 
-int site(const Call& call) {
+int site(const SiteCall& call) {
     const std::string from = call.web_root.empty() ? WebFiles::folder_of("site") : call.web_root;
     std::error_code missing;
     if (from.empty() || !fs::is_regular_file(from + "/index.html", missing)) {
@@ -67,7 +67,7 @@ int site(const Call& call) {
 }  // namespace
 
 void add_site(CLI::App& program, int& exit_code) {
-    const auto call = std::make_shared<Call>();
+    const auto call = std::make_shared<SiteCall>();
     CLI::App* verb =
         program.add_subcommand("site", "Write the static site: touch page and mill page, no server needed");
     verb->add_option("--out", call->out, "Folder for the site; an older one of Tribo's is replaced whole")

@@ -11,7 +11,7 @@ namespace tribo::field {
 namespace {
 
 // Nearer to the mesh than this, the direction to it is rounding noise and the normal of the mesh is used, mm.
-constexpr double kOnSurface = 1e-6;
+constexpr double kOnFace = 1e-6;
 
 std::string place(Vec3 p) {
     return format_decimal(static_cast<float>(p.x)) + ", " + format_decimal(static_cast<float>(p.y)) + ", " +
@@ -46,7 +46,7 @@ Result<std::unique_ptr<MeshShape>> MeshShape::make(TriangleMesh mesh) {
 
 Vec3 MeshShape::gradient(Vec3 point_mm) const {
     const MeshPoint found = distance_->closest(point_mm);
-    if (std::abs(found.distance_mm) <= kOnSurface) return found.normal;
+    if (std::abs(found.distance_mm) <= kOnFace) return found.normal;
     return (point_mm - found.point_mm) / found.distance_mm;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // libpng leaves an error by a jump (longjmp) to the last setjmp. So a function that calls setjmp has no
 // local with a destructor: everything lives in these two.
-struct Decoder {
+struct PngDecoder {
     std::string_view left;
     std::string cause;
     Image image;
@@ -19,16 +19,16 @@ struct Decoder {
     png_structp png = nullptr;
     png_infop info = nullptr;
 
-    ~Decoder() { png_destroy_read_struct(&png, &info, nullptr); }
+    ~PngDecoder() { png_destroy_read_struct(&png, &info, nullptr); }
 
     static void read(png_structp png, png_bytep out, std::size_t size) {
-        auto& left = static_cast<Decoder*>(png_get_io_ptr(png))->left;
+        auto& left = static_cast<PngDecoder*>(png_get_io_ptr(png))->left;
         if (size > left.size()) png_error(png, "it ends too soon");
         std::memcpy(out, left.data(), size);
         left.remove_prefix(size);
     }
     static void keep(png_structp png, png_const_charp message) {
-        static_cast<Decoder*>(png_get_error_ptr(png))->cause =
+        static_cast<PngDecoder*>(png_get_error_ptr(png))->cause =
             std::string("the image is damaged: ") + message;
         png_longjmp(png, 1);
     }
@@ -101,7 +101,7 @@ struct Encoder {
 }  // namespace
 
 std::expected<Image, std::string> parse_png(std::string_view bytes) {
-    Decoder decoder;
+    PngDecoder decoder;
     decoder.left = bytes;
     if (!decoder.decode()) return std::unexpected(std::move(decoder.cause));
     return std::move(decoder.image);

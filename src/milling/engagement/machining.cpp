@@ -17,7 +17,7 @@ namespace {
 constexpr double kClearance = 0.05;  // mm
 // Largest numbers of steps and rows that are processed together, and of earlier sweeps of the same run that
 // may overlap one sweep. With more of them it is cheaper to carve them first.
-constexpr std::size_t kMostSteps = 64, kMostRows = 256, kMostPending = 16;
+constexpr std::size_t kMostSteps = 64, kMostRowsAtOnce = 256, kMostPending = 16;
 // Rows are divided into this number of shares, each with its own probes.
 constexpr std::size_t kShares = 16;
 // The cutting part of a row in which contact begins or ends is divided into this number of rows.
@@ -374,7 +374,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     out.collisions.clear();
     std::size_t pass = 0;
     for (const Step& step : steps) {
-        if (!step.joins && (sweeps_.size() >= kMostSteps || out.row_count >= kMostRows)) break;
+        if (!step.joins && (sweeps_.size() >= kMostSteps || out.row_count >= kMostRowsAtOnce)) break;
         if (!add_sweep(step)) break;
         if (!step.joins) pass = sweeps_.size() - 1;
         const bool ends = &step == &steps.back() || !(&step + 1)->joins;

@@ -13,7 +13,7 @@ namespace {
 using field::kLatticeEdge;
 
 // Larger than every distance, mm.
-constexpr double kNever = 1e30;
+constexpr double kNoBound = 1e30;
 // A path or turn that bends by less is straight but for rounding, mm and rad.
 constexpr double kStraight = 1e-9;
 // Surfaces that are nearer to each other than this meet in an edge, mm.
@@ -26,7 +26,7 @@ void sample_nodes(const field::Lattice& lattice, double near_mm, float* out, con
     for (int n = 0; n < field::kLatticeNodes; ++n) {
         const int a = n % kLatticeEdge, b = n / kLatticeEdge % kLatticeEdge,
                   c = n / (kLatticeEdge * kLatticeEdge);
-        double above = -kNever, below = kNever;
+        double above = -kNoBound, below = kNoBound;
         const auto learn = [&](bool has, int step) {
             if (!has) return;
             const double before = static_cast<double>(out[n - step]);
@@ -51,7 +51,7 @@ class LevelSweep : public field::Shape {
         return normalized(normal.r * v.radial + normal.z * v.axis, -v.axis);
     }
     void sample(const field::Lattice& lattice, float* out) const override {
-        sample_near(lattice, kNever, out);
+        sample_near(lattice, kNoBound, out);
     }
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
         sample_nodes(lattice, near_mm, out, [this](Vec3 point, double) { return distance_mm(point); });
@@ -106,15 +106,15 @@ class LevelArcSweep final : public LevelSweep {
 };
 
 // The tool as seen from a point at one instant; derivatives by t.
-struct ToolView {
+struct ZonesView {
     Vec3 axis, radial;
     PlanePoint at, rate;
 };
-ToolView view(const CurvedLine& c, Vec3 point, double t) {
+ZonesView zones_view(const CurvedLine& c, Vec3 point, double t) {
     const Vec3 d = point - t * (c.tip1 + t * c.tip2), velocity = c.tip1 + 2 * t * c.tip2;
     const Vec3 raw = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
     const double size = length(raw);
-    ToolView v;
+    ZonesView v;
     v.axis = raw / size;
     const Vec3 axis_rate = (turning - dot(turning, v.axis) * v.axis) / size;
     v.at.z = dot(d, v.axis);
@@ -135,23 +135,23 @@ class SearchedSweep final : public field::Shape {
     }
 
     Box3 bounds_mm() const override { return box_; }
-    double distance_mm(Vec3 point) const override { return least(point, kNever, kNever).distance; }
+    double distance_mm(Vec3 point) const override { return least(point, kNoBound, kNoBound).distance; }
     double distance_below(Vec3 point, double bound) const override {
-        return least(point, bound, kNever).distance;
+        return least(point, bound, kNoBound).distance;
     }
     bool is_searched() const override { return true; }
 
     // Where two surfaces of the cutter meet in an edge that makes the surface, its normal is perpendicular to
     // the travel of the edge, between their normals.
     Vec3 gradient(Vec3 point) const override {
-        const Least nearest = least(point, kNever, kNever);
-        const ToolView v = view(line_, point - start_, nearest.t);
+        const Least nearest = least(point, kNoBound, kNoBound);
+        const ZonesView v = zones_view(line_, point - start_, nearest.t);
         const PlanePoint normal = edge_normal(v, nearest);
         return normalized(normal.r * v.radial + normal.z * v.axis, -v.axis);
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
-        sample_near(lattice, kNever, out);
+        sample_near(lattice, kNoBound, out);
     }
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
         sample_nodes(lattice, near_mm, out,
@@ -174,7 +174,7 @@ class SearchedSweep final : public field::Shape {
         double floor;  // nothing between is lower
     };
 
-    Instant instant(std::size_t zone, const ToolView& v, double t) const {
+    Instant instant(std::size_t zone, const ZonesView& v, double t) const {
         const ConvexZones::Seen seen = zones_->look(zone, v.at);
         return {t, seen.distance_mm, dot(seen.normal, v.rate)};
     }
@@ -210,17 +210,18 @@ class SearchedSweep final : public field::Shape {
         const TravelBounds& b = line_.bounds;
         const double reach = length(d - b.middle) + b.spread;
         const double bend = b.tip_bend + 2 * b.turn * b.speed + (b.turn_rate + b.turn * b.turn) * reach;
-        std::array<ToolView, kMostInstants> views;
-        for (int k = 0; k < instants_; ++k) views[static_cast<std::size_t>(k)] = view(line_, d, time(k));
-        const ToolView halfway = view(line_, d, 0.5);
+        std::array<ZonesView, kMostInstants> views;
+        for (int k = 0; k < instants_; ++k)
+            views[static_cast<std::size_t>(k)] = zones_view(line_, d, time(k));
+        const ZonesView halfway = zones_view(line_, d, 0.5);
         const double speed = b.speed + b.turn * reach;
         Least best{bound, 0, 0};
-        double lowest_floor = kNever;
+        double lowest_floor = kNoBound;
         for (std::size_t zone = 0; zone < zones_->size(); ++zone) {
             std::array<Stretch, kDepth> open;
             int count = 0;
             const auto goal = [&] {
-                return best.distance > -near ? std::min(best.distance - 0.5 * kProvenMm, near) : -kNever;
+                return best.distance > -near ? std::min(best.distance - 0.5 * kProvenMm, near) : -kNoBound;
             };
             const auto take = [&](const Instant& i) {
                 if (i.distance < best.distance) best = {i.distance, i.t, zone};
@@ -258,7 +259,7 @@ class SearchedSweep final : public field::Shape {
                     continue;
                 }
                 const double t = next(s, bend, look);
-                const Instant middle = instant(zone, view(line_, d, t), t);
+                const Instant middle = instant(zone, zones_view(line_, d, t), t);
                 take(middle);
                 const Stretch left = stretch(s.a, middle, bend), right = stretch(middle, s.b, bend);
                 push(left.floor < right.floor ? right : left);
@@ -272,7 +273,7 @@ class SearchedSweep final : public field::Shape {
 
     double time(int k) const { return static_cast<double>(k) / (instants_ - 1); }
 
-    PlanePoint edge_normal(const ToolView& v, const Least& nearest) const {
+    PlanePoint edge_normal(const ZonesView& v, const Least& nearest) const {
         const PlanePoint normal = zones_->look(nearest.zone, v.at).normal;
         if (nearest.t <= 0 || nearest.t >= 1) return normal;
         const PlanePoint other = zones_->other_normal(nearest.zone, v.at, kEdgeMm);

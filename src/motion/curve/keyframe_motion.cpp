@@ -45,7 +45,7 @@ ToolPose with_unit_axis(ToolPose pose) {
 }
 
 // Poses closer than this in mm (or rad) count as one.
-constexpr double kSamePose = 1e-9;
+constexpr double kSameKey = 1e-9;
 
 // The keyframes that differ from the one before, and the parameters of all keyframes.
 struct Stations {
@@ -58,7 +58,7 @@ Stations stations_of(std::span<const Keyframe> keyframes, Spacing spacing) {
     for (const Keyframe& k : keyframes) {
         const ToolPose pose = with_unit_axis(k.pose);
         const double chord = s.poses.empty() ? 0 : pose_chord(s.poses.back(), pose);
-        if (!s.poses.empty() && chord < kSamePose) {
+        if (!s.poses.empty() && chord < kSameKey) {
             s.all.push_back(s.distinct.back());
             continue;
         }
@@ -193,7 +193,7 @@ Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, do
             Move m = move_to(keyframes[i], feed_mm_per_min);
             m.start = with_unit_axis(keyframes[i - 1].pose);
             m.end = with_unit_axis(keyframes[i].pose);
-            if (pose_chord(m.start, m.end) < kSamePose) continue;
+            if (pose_chord(m.start, m.end) < kSameKey) continue;
             if (moves.size() == options.max_moves) return refuse_more_than(options.max_moves, keyframes[i]);
             moves.push_back(m);
         }

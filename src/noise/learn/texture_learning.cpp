@@ -16,10 +16,10 @@
 namespace tribo::noise {
 namespace {
 
-using Pieces = std::span<const std::span<const double>>;
+using PieceSpans = std::span<const std::span<const double>>;
 
 constexpr std::array<double, 4> kCrossoversHz{400, 1500, 5000, 12000};
-constexpr double kFrameS = 0.003;
+constexpr double kFineFrameS = 0.003;
 constexpr double kFramesPerBandwidth = 4;  // minimum of frame length * bandwidth of a band
 // Memory times of the level process, at the learned speed.
 constexpr std::array<double, kMostLengths> kMemoryS{0.002, 0.006, 0.02, 0.06};
@@ -73,7 +73,7 @@ struct BandLevels {
 
 struct Analysis {
     std::vector<BandLevels> bands;
-    double fine_s = kFrameS;
+    double fine_s = kFineFrameS;
 };
 
 std::vector<double> corners_at(double rate_hz) {
@@ -88,12 +88,12 @@ Analysis analysed(const std::vector<double>& sound, double rate_hz) {
     Analysis a;
     const std::vector<double> corners = corners_at(rate_hz);
     const auto coarse =
-        static_cast<std::size_t>(std::max(kFrameS, kFramesPerBandwidth / corners[0]) * rate_hz);
+        static_cast<std::size_t>(std::max(kFineFrameS, kFramesPerBandwidth / corners[0]) * rate_hz);
     a.bands.resize(corners.size() + 1);
     for (std::size_t b = 0; b < a.bands.size(); ++b) {
         const double low = b > 0 ? corners[b - 1] : 0, high = b < corners.size() ? corners[b] : 0.5 * rate_hz;
         const auto fine =
-            static_cast<std::size_t>(std::max(kFrameS, kFramesPerBandwidth / (high - low)) * rate_hz);
+            static_cast<std::size_t>(std::max(kFineFrameS, kFramesPerBandwidth / (high - low)) * rate_hz);
         const std::vector<double> x = band_of(sound, b, corners, rate_hz);
         for (const double v : x) a.bands[b].power += v * v / static_cast<double>(x.size());
         a.bands[b].fine = frame_levels_db(x, fine);
@@ -300,7 +300,7 @@ GrainModel take_grains(std::vector<double>& residual, double sample_rate_hz, dou
     return grains;
 }
 
-std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, double speed_mm_per_s) {
+std::optional<TextureModel> learn_texture(PieceSpans pieces, const ArModel& model, double speed_mm_per_s) {
     TextureModel texture;
     const double rate = model.sample_rate_hz;
     const std::vector<double> level = joined(without_slow_level(pieces, rate));
@@ -335,7 +335,7 @@ std::optional<TextureModel> learn_texture(Pieces pieces, const ArModel& model, d
         real += weight * shrinks[b] * shrinks[b];
         weights += weight;
     }
-    texture.weights = memory_shares(together, kFrameS, real / std::max(weights, 1e-300));
+    texture.weights = memory_shares(together, kFineFrameS, real / std::max(weights, 1e-300));
     for (const double s : kMemoryS) texture.lengths_mm.push_back(s * speed_mm_per_s);
 
     double coherence = 0;

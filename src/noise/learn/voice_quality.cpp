@@ -15,12 +15,12 @@ namespace {
 
 constexpr double kBlockS = 0.25;
 constexpr int kPlainOrder = 50;
-constexpr double kPlayedS = 10;
+constexpr double kMostPlayedS = 10;
 constexpr double kLevelS = 60;  // the level of a textured voice varies slowly, so its mean needs a long time
 
 using Pieces = std::vector<std::span<const double>>;
 
-double db(double power) {
+double decibels(double power) {
     return 10 * math::log10(std::max(power, 1e-30));
 }
 
@@ -48,7 +48,7 @@ std::vector<double> played(const VoiceModel& model, bool textured, double second
 std::vector<double> modulation_db(const std::vector<double>& sound, double rate,
                                   const std::vector<double>& hz) {
     std::vector<double> levels = modulation_density(sound, rate, hz);
-    for (double& v : levels) v = db(v);
+    for (double& v : levels) v = decibels(v);
     return levels;
 }
 
@@ -82,12 +82,12 @@ VoiceQuality quality_of(const VoiceModel& model, const PreparedRecording& record
     q.held_out_plain_db = held_out(kPlainOrder, 0, 0);
 
     const double seconds = static_cast<double>(sound.size()) / rate;
-    const std::vector<double> gaussian = played(model, false, std::min(seconds, kPlayedS), 1);
-    const std::vector<double> voice = played(model, true, std::min(seconds, kPlayedS), 1);
+    const std::vector<double> gaussian = played(model, false, std::min(seconds, kMostPlayedS), 1);
+    const std::vector<double> voice = played(model, true, std::min(seconds, kMostPlayedS), 1);
     double power = 0;
     const std::vector<double> long_voice = played(model, true, kLevelS, 2);
     for (const double v : long_voice) power += v * v / static_cast<double>(long_voice.size());
-    q.level_error_db = db(power) - model.level_db;
+    q.level_error_db = decibels(power) - model.level_db;
     // Remove the slow level of the hand: in playback it comes from the stroke.
     std::vector<double> levelled;
     for (const std::vector<double>& piece : without_slow_level(recording.pieces(), rate)) {

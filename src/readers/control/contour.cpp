@@ -15,12 +15,8 @@ using gcode::Element;
 using gcode::Point;
 
 // Directions that differ by less than this count as one, rad.
-constexpr double kStraightRad = 1e-6;
+constexpr double kStraightTurnRad = 1e-6;
 constexpr double kSamePointMm = 1e-7;
-
-std::string mm_text(double value) {
-    return short_decimal(value) + " mm";
-}
 
 Point moved(Point p, Point direction, double by) {
     return {p.u + by * direction.u, p.v + by * direction.v};
@@ -119,7 +115,7 @@ Result<Contour::Pieces> Contour::with_corners(const Path& path) const {
         const double turn =
             gcode::turn_between(before.element.end_direction(), next.element.start_direction());
         corner.from_z = corner.to_z = before.to_z;
-        if (std::abs(turn) < kStraightRad) {
+        if (std::abs(turn) < kStraightTurnRad) {
             done.push_back(next);
             continue;
         }
@@ -197,7 +193,7 @@ Result<void> Contour::join(const Path& path, const Piece& before, const Piece& n
                            Pieces& done, std::size_t last) const {
     const double turn = gcode::turn_between(before.element.end_direction(), next.element.start_direction());
     const Point at = done[last].element.end;
-    if (std::abs(turn) < kStraightRad) {
+    if (std::abs(turn) < kStraightTurnRad) {
         piece.element.set_start(at);
     } else if (left_mm_ * turn < 0) {
         Piece about = piece;

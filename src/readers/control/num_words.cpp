@@ -13,7 +13,7 @@ namespace tribo::readers {
 namespace {
 
 // Variables of Fanuc that stand for L0 to L399 and for names in brackets; L900 and on keep their numbers.
-constexpr int kFirstVariable = 500, kMostVariables = 400, kFirstOwn = 900, kLastOwn = 999;
+constexpr int kFirstL = 500, kVariableCount = 400, kFirstOwn = 900, kLastOwn = 999;
 constexpr int kFirstName = 100, kMostNames = 100;
 
 // A word that is refused by its name.
@@ -176,9 +176,9 @@ std::string NumWords::variable_at(std::string_view text, std::size_t& at) {
         if (digits.empty() || digits.size() > 3) return {};
         const int number = std::stoi(std::string(digits));
         const bool is_own = number >= kFirstOwn && number <= kLastOwn;
-        if (!is_own && number >= kMostVariables) return {};
+        if (!is_own && number >= kVariableCount) return {};
         at += 1 + digits.size();
-        return "#" + std::to_string(is_own ? number : kFirstVariable + number);
+        return "#" + std::to_string(is_own ? number : kFirstL + number);
     }
     if (at < text.size() && text[at] == '[') {
         const std::size_t end = text.find(']', at);

@@ -8,18 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "readers/control/block_text.hpp"
 #include "readers/text/text_lines.hpp"
 
 namespace tribo::readers {
 namespace {
 
 constexpr std::size_t kLookedAt = 4096;  // characters from the start
-
-std::string upper(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(), to_upper);
-    return out;
-}
 
 // A block without number, comment and '*'.
 std::string block_of(std::string_view line) {

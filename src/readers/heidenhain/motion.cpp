@@ -10,7 +10,7 @@
 namespace tribo::readers::heidenhain {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ", kRotary = "ABC";
+constexpr std::string_view kPathAxes = "XYZ", kRotary = "ABC";
 
 }  // namespace
 
@@ -25,9 +25,10 @@ Result<Vec3> Interpreter::target(const Words& words) {
         } else if (words.increment[i]) {
             if (known[i] == Known::lost) continue;
             if (known[i] != Known::yes) {
-                return path_.refuse(place(words.first_column),
-                                    std::string("an increment along ") + kAxes[i] + " from an unknown place",
-                                    "write its coordinate before");
+                return path_.refuse(
+                    place(words.first_column),
+                    std::string("an increment along ") + kPathAxes[i] + " from an unknown place",
+                    "write its coordinate before");
             }
             to[k] += *words.increment[i];
         }

@@ -9,7 +9,7 @@
 namespace tribo::readers {
 namespace {
 
-constexpr std::size_t kNone = std::string_view::npos;
+constexpr std::size_t kNowhere = std::string_view::npos;
 
 // What stands behind the letter.
 std::optional<NumberWord> word_behind(std::string_view line, std::size_t at, FeedLanguage language,
@@ -39,8 +39,8 @@ bool is_of_function(std::string_view line, std::size_t at) {
         if (before.ends_with(name) && is_word(before.size() - name.size())) return true;
     }
     const std::size_t m140 = before.rfind("M140");
-    return m140 != kNone && is_word(m140) &&
-           before.find_first_not_of(" \tMBAX+-.,0123456789", m140 + 4) == kNone;
+    return m140 != kNowhere && is_word(m140) &&
+           before.find_first_not_of(" \tMBAX+-.,0123456789", m140 + 4) == kNowhere;
 }
 
 }  // namespace
@@ -86,12 +86,12 @@ std::optional<NumberWord> word_in_statement(std::string_view line, std::string_v
     std::string text(line);
     std::ranges::transform(text, text.begin(), to_upper);
     const std::size_t word = text.find_first_not_of(" \t");
-    if (word == kNone || text.compare(word, name.size(), name) != 0) return std::nullopt;
+    if (word == kNowhere || text.compare(word, name.size(), name) != 0) return std::nullopt;
     const std::size_t slash = text.find('/', word);
-    if (slash == kNone) return std::nullopt;
+    if (slash == kNowhere) return std::nullopt;
     for (std::size_t at = slash + 1; at < line.size();) {
         const std::size_t begin = line.find_first_not_of(" \t", at);
-        if (begin == kNone) break;
+        if (begin == kNowhere) break;
         if (const auto number = number_at(line, begin)) return number;
         at = std::min(line.find(',', begin), line.size() - 1) + 1;
     }

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kMostPlaces = 10'000;
 
-struct Refused {
+struct RefusedCycle {
     std::string_view begin, what, remedy;
 };
 constexpr std::string_view kPlain = "let the CAM system write the path with G0 to G3";
 // Names of cycles that are not read, by their beginnings.
-constexpr Refused kRefused[] = {
+constexpr RefusedCycle kRefusedCycles[] = {
     {"CYCLE64", "holes that the control places in a contour", "write CYCLE83 with MCALL at their places"},
     {"CYCLE78", "a thread with its hole", "write CYCLE83, and CYCLE70 for the thread"},
     {"CYCLE899", "a trochoidal slot that the control lays", kPlain},
@@ -77,7 +77,7 @@ Result<bool> Interpreter::run_cycle(const Call& call) {
         }
         return true;
     }
-    for (const Refused& refused : kRefused) {
+    for (const RefusedCycle& refused : kRefusedCycles) {
         if (!name.starts_with(refused.begin)) continue;
         return path_.refuse(where, name + " (" + std::string(refused.what) + ") is not read",
                             std::string(refused.remedy));

@@ -10,7 +10,7 @@
 namespace tribo::readers::siemens {
 namespace {
 
-constexpr std::string_view kAxes = "XYZ";
+constexpr std::string_view kPathAxes = "XYZ";
 // Lines with ANG: the angle may not lie along the coordinate that is given.
 constexpr double kLeastSlope = 1e-6;
 
@@ -96,7 +96,7 @@ Result<bool> Interpreter::find_target(const Words& words, Vec3& to) {
             word.measure == Measure::incremental || (word.measure == Measure::modal && incremental_);
         if (adds && known[i] != Known::yes) {
             return path_.refuse(place(word.column),
-                                std::string("an increment along ") + kAxes[i] + " from an unknown place",
+                                std::string("an increment along ") + kPathAxes[i] + " from an unknown place",
                                 "write its coordinate before");
         }
         to[k] = scale_[k] * mm + (adds ? to[k] : 0);

@@ -14,11 +14,11 @@ constexpr std::size_t kShownColumns = 4;  // both kinds have four columns
 using Columns = std::array<NumberColumn, kShownColumns>;
 using Values = std::array<double, kShownColumns>;
 
-constexpr NumberColumn kTime{"t_s", kLimits.stroke_time};
+constexpr NumberColumn kStrokeTime{"t_s", kLimits.stroke_time};
 constexpr NumberColumn kX{"x_mm", kLimits.coordinate};
 constexpr NumberColumn kY{"y_mm", kLimits.coordinate};
-constexpr Columns kProbe{kTime, kX, kY, {"z_mm", kLimits.coordinate}};
-constexpr Columns kFinger{kTime, kX, kY, {"force_n", kLimits.stroke_force}};
+constexpr Columns kProbe{kStrokeTime, kX, kY, {"z_mm", kLimits.coordinate}};
+constexpr Columns kFinger{kStrokeTime, kX, kY, {"force_n", kLimits.stroke_force}};
 
 // Hands the values of each line to `add`.
 template <class Add>

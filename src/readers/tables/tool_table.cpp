@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kColumns{"number"sv, "diameter_mm"sv, "corner_mm"sv, "flutes"sv, "length_mm"sv};
+constexpr std::array kToolColumns{"number"sv, "diameter_mm"sv, "corner_mm"sv, "flutes"sv, "length_mm"sv};
 
 struct Field {
     std::string_view text;
@@ -80,17 +80,17 @@ class ToolTableReader {
             std::transform(name.begin(), name.end(), name.begin(), [](char c) {
                 return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
             });
-            const auto known = std::find(kColumns.begin(), kColumns.end(), name);
-            if (known == kColumns.end()) {
+            const auto known = std::find(kToolColumns.begin(), kToolColumns.end(), name);
+            if (known == kToolColumns.end()) {
                 table_.warnings.push_back(
                     {options_.source_name, lines_.number(),
-                     "the column " + quoted(name) + " is not read; " + suggestion(name, kColumns)});
+                     "the column " + quoted(name) + " is not read; " + suggestion(name, kToolColumns)});
             }
-            columns_.push_back(static_cast<std::size_t>(known - kColumns.begin()));
+            columns_.push_back(static_cast<std::size_t>(known - kToolColumns.begin()));
         }
         for (std::size_t needed : {std::size_t{0}, std::size_t{1}}) {
             if (std::find(columns_.begin(), columns_.end(), needed) != columns_.end()) continue;
-            return refuse(1, "the table has no column '" + std::string(kColumns[needed]) + "'",
+            return refuse(1, "the table has no column '" + std::string(kToolColumns[needed]) + "'",
                           "name its columns number, diameter_mm, corner_mm, flutes, length_mm");
         }
         return {};
@@ -100,7 +100,7 @@ class ToolTableReader {
         const std::vector<Field> fields = fields_of(line);
         motion::DeclaredTool tool;
         for (std::size_t i = 0; i < fields.size() && i < columns_.size(); ++i) {
-            if (columns_[i] == kColumns.size() || fields[i].text.empty()) continue;
+            if (columns_[i] == kToolColumns.size() || fields[i].text.empty()) continue;
             const auto value = number_of(fields[i].text);
             if (!value) {
                 return refuse(fields[i].column,

@@ -62,4 +62,8 @@ std::string short_decimal(double value, int decimals) {
     return text;
 }
 
+std::string mm_text(double value) {
+    return short_decimal(value) + " mm";
+}
+
 }  // namespace tribo::readers

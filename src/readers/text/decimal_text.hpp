@@ -14,4 +14,7 @@ void append_fixed(std::string& text, double value, int decimals);
 // The same without trailing zeros: 0.5, 12, 3.1416.
 std::string short_decimal(double value, int decimals = 4);
 
+// The same of a length: 3.1416 mm.
+std::string mm_text(double value);
+
 }  // namespace tribo::readers

@@ -8,8 +8,8 @@
 namespace tribo::session {
 namespace {
 
-constexpr std::size_t kBatch = 512;    // rows that are computed at once
-constexpr double kLongestBatchS = 20;  // bounds the memory of traces
+constexpr std::size_t kRowsAtOnce = 512;  // rows that are computed at once
+constexpr double kLongestBatchS = 20;     // bounds the memory of traces
 
 void add(ChatterTotals::Rows& rows, int line) {
     if (rows.count++ == 0) rows.line = line;
@@ -52,7 +52,7 @@ void ProgramChatter::add(const milling::CutRow& row, const milling::RowForce& fo
     copy.chatter = {};
     copy.trace.clear();
     lasts_s_ += row.duration_s();
-    if (count_ == kBatch || lasts_s_ > kLongestBatchS) compute();
+    if (count_ == kRowsAtOnce || lasts_s_ > kLongestBatchS) compute();
 }
 
 void ProgramChatter::finish() {

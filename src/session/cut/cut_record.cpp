@@ -6,17 +6,13 @@
 #include "base/hash.hpp"
 #include "base/math.hpp"
 #include "milling/force/force.hpp"
+#include "session/cut/pose_hash.hpp"
 
 namespace tribo::session {
 namespace {
 
 // Number of shares of the work. Each share has its own force models.
 constexpr std::size_t kShares = 8;
-
-void add(Hash& hash, const motion::ToolPose& pose) {
-    hash.add(pose.tip_mm);
-    hash.add(pose.axis);
-}
 
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include "milling/sweep/sweep.hpp"
 #include "motion/path/path.hpp"
 #include "session/cut/mill_session.hpp"
+#include "session/cut/pose_hash.hpp"
 
 namespace tribo::session {
 namespace {
@@ -15,11 +16,6 @@ namespace {
 // Enough moves that all threads have work, and few enough that a stop takes effect soon.
 constexpr std::size_t kCarvedAtOnce = 256;
 static_assert(kCarvedAtOnce <= field::CarvedField::kMostAtOnce);
-
-void add(Hash& hash, const motion::ToolPose& pose) {
-    hash.add(pose.tip_mm);
-    hash.add(pose.axis);
-}
 
 }  // namespace
 

@@ -17,9 +17,9 @@ namespace {
 // Moves offered to the cut at once. The cut takes as many of them as it can process together.
 constexpr std::size_t kOfferedMoves = 64;
 // Shapes carved again at once.
-constexpr std::size_t kCarvedAtOnce = 64;
+constexpr std::size_t kShapesAtOnce = 64;
 // Number of force models, so that several threads have their own.
-constexpr std::size_t kShares = 8;
+constexpr std::size_t kTasks = 8;
 
 }  // namespace
 
@@ -121,7 +121,7 @@ class MillSession::Run {
         if (states_->last(due) > carved_moves_) restore(due);
         while (carved_moves_ < due) {
             std::size_t shapes = 0;
-            for (; carved_moves_ < due && shapes < kCarvedAtOnce; ++carved_moves_)
+            for (; carved_moves_ < due && shapes < kShapesAtOnce; ++carved_moves_)
                 shapes += setup_.moves[carved_moves_].kind == motion::MoveKind::dwell ? 0 : 1;
             stock_.carve_again(shapes);
             states_->offer(stock_, carved_moves_);
@@ -256,8 +256,8 @@ class MillSession::Run {
 
     // Spectra are not needed without a receiver of rows.
     void evaluate(bool spectra) {
-        parallel_(kShares, [&](std::size_t share) {
-            const std::size_t from = row_count_ * share / kShares, to = row_count_ * (share + 1) / kShares;
+        parallel_(kTasks, [&](std::size_t share) {
+            const std::size_t from = row_count_ * share / kTasks, to = row_count_ * (share + 1) / kTasks;
             for (std::size_t n = from; n < to; ++n) {
                 const milling::CutRow& row = rows_[n];
                 milling::RowForce& force = forces_[n];
@@ -312,7 +312,7 @@ class MillSession::Run {
     }
 
     milling::Machining machining_;
-    std::array<std::vector<milling::ForceModel>, kShares> models_;
+    std::array<std::vector<milling::ForceModel>, kTasks> models_;
     std::vector<milling::Step> steps_;
     milling::Machined machined_;
     std::vector<milling::CutRow> rows_;      // of the last moves; only the first row_count_ are valid

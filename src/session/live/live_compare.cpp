@@ -9,7 +9,7 @@ namespace tribo::session {
 namespace {
 
 // Rows whose forces are computed together.
-constexpr std::size_t kRowsAtOnce = 1024;
+constexpr std::size_t kJoinsAtOnce = 1024;
 
 }  // namespace
 
@@ -21,8 +21,8 @@ std::vector<ComparedRow> compared_rows(const LiveMill& mill, const ParallelFor& 
     const std::span<const milling::CutRow> rows = mill.record().rows();
     std::vector<ComparedRow> compared;
     compared.reserve(rows.size());
-    for (std::size_t first = 0; first < rows.size(); first += kRowsAtOnce) {
-        const auto some = rows.subspan(first, std::min(kRowsAtOnce, rows.size() - first));
+    for (std::size_t first = 0; first < rows.size(); first += kJoinsAtOnce) {
+        const auto some = rows.subspan(first, std::min(kJoinsAtOnce, rows.size() - first));
         const auto forces = changed_forces(some, setup, change, some.size(), parallel);
         for (std::size_t n = 0; n < some.size(); ++n) {
             const milling::CutRow row = changed_row(some[n], change);

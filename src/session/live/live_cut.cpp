@@ -15,7 +15,7 @@ namespace {
 // there are cases.
 constexpr std::size_t kRowsPerSlice = 256;
 // Known rows whose changed forces are computed at one time, from the clock on.
-constexpr std::size_t kRowsAtOnce = 1024;
+constexpr std::size_t kFreshAtOnce = 1024;
 // Rows in one frame, and frames at one time: a viewer can process them without a stutter.
 constexpr std::size_t kRowsPerFrame = 4096, kMostFrames = 2;
 
@@ -137,7 +137,7 @@ void LiveCut::hear_to(double t_s) {
 void LiveCut::compute_new() {
     if (fresh_ == rows_.size()) return;
     // Rows far ahead of the clock wait.
-    const std::size_t last = fresh_ < known_ ? std::min(fresh_ + kRowsAtOnce, known_) : rows_.size();
+    const std::size_t last = fresh_ < known_ ? std::min(fresh_ + kFreshAtOnce, known_) : rows_.size();
     compute(fresh_, last, change_, heard_);
     fresh_ = last;
 }

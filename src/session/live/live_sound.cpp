@@ -16,7 +16,7 @@ constexpr std::int64_t kHop = std::int64_t{4} * sound::kQuantumFrames;
 static_assert(kHop <= LiveVibration::kMostSamples);
 // Clock correction, in s of sound: from this difference on the clock was set. Below it we assume network
 // jitter and apply only a fraction.
-constexpr double kClockJumpS = 0.12, kJitterGain = 0.04;
+constexpr double kSoundJumpS = 0.12, kJitterGain = 0.04;
 // Largest correction of the phase per update: 3 Hz.
 constexpr double kLargestCorrectionRad = 0.1;
 // A vibrating cut goes on for so long, in s of sound, where its next piece is not here yet: it is cut at the
@@ -94,7 +94,7 @@ void LiveSound::follow(double t_s, double speed, bool playing, double lead_s) {
     const double told = t_s + (playing ? speed * pace_ * std::clamp(lead_s, 0.0, 1.0) : 0);
     const double off = told - clock_s_;
     const bool set =
-        !known_ || speed != speed_ || playing != playing_ || std::abs(off) > kClockJumpS * speed * pace_;
+        !known_ || speed != speed_ || playing != playing_ || std::abs(off) > kSoundJumpS * speed * pace_;
     clock_s_ = set ? told : clock_s_ + kJitterGain * off;
     speed_ = speed;
     playing_ = playing;

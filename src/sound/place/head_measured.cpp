@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <string>
 #include <vector>
 
 #include "base/math.hpp"
+#include "sound/place/complex.hpp"
 #include "sound/place/head.hpp"
 
 namespace tribo::sound {
 namespace {
-
-using Complex = std::complex<double>;
 
 constexpr std::size_t kMostDirections = 100000;
 constexpr int kMostTaps = 16384;
@@ -157,10 +155,6 @@ void add(const EarResponses& what, double times, EarResponses& to) {
         for (std::size_t k = 0; k < kHeadTaps; ++k)
             to.taps[ear][k] += static_cast<float>(times) * what.taps[ear][k];
     }
-}
-
-double squared(Complex z) {
-    return z.real() * z.real() + z.imag() * z.imag();
 }
 
 // What a set has to be multiplied by to have the level of the free field: 0 dB on average of the logarithms

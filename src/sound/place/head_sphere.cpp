@@ -3,25 +3,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 #include <memory>
 #include <vector>
 
 #include "base/math.hpp"
+#include "sound/place/complex.hpp"
 #include "sound/place/head.hpp"
 
 namespace tribo::sound {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double kEarsBehindRad = 10 * math::kRadPerDeg;
 constexpr int kAngleStepDeg = 2, kAngles = 180 / kAngleStepDeg + 1;
 constexpr double kRearDb = -8, kRearHz = 3000;
 
-Complex product(Complex a, Complex b) {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
 Complex inverse(Complex a) {
     const double s = a.real() * a.real() + a.imag() * a.imag();
     return {a.real() / s, -a.imag() / s};

@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "sound/place/complex.hpp"
 
 namespace tribo::sound {
 namespace {
-
-using Complex = std::complex<double>;
 
 // Notches deeper than this below the loudest frequency are filled: their logarithm would ring.
 constexpr double kDeepestNotch = 1e-4;
@@ -18,15 +17,6 @@ constexpr double kDeepestNotch = 1e-4;
 constexpr int kFadeTaps = 24;
 // Levels are compared at this frequency, and put right by a ring that falls to 1/e in so many taps.
 constexpr double kLevelHz = 1000, kRingTaps = 24;
-
-// std::complex's own product may call a library function that tests for infinities.
-Complex product(Complex a, Complex b) {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
-double squared(Complex a) {
-    return a.real() * a.real() + a.imag() * a.imag();
-}
 
 Complex conjugate(Complex a) {
     return {a.real(), -a.imag()};

@@ -9,7 +9,7 @@
 namespace tribo::test {
 namespace {
 
-constexpr int kRate = 48000;
+constexpr int kRubRate = 48000;
 
 // -20 dB at 100 mm/s and 1 N, 10 dB a decade between two voices; no texture.
 constexpr const char* kMaterial = R"({"schema": "tribo.material/1", "stiffness_n_per_mm": 4,
@@ -17,13 +17,13 @@ constexpr const char* kMaterial = R"({"schema": "tribo.material/1", "stiffness_n
   {"speed_mm_per_s": 100, "level_db": -20, "sample_rate_hz": 48000, "reflection": [-0.5, 0.3]},
   {"speed_mm_per_s": 1000, "level_db": -10, "sample_rate_hz": 48000, "reflection": [-0.2, 0.1]}]})";
 // 2 s at 100 mm/s, a second at rest, 2 s at 316 mm/s, half a second off the surface.
-constexpr const char* kStroke =
+constexpr const char* kRubStroke =
     "t_s,x_mm,y_mm,force_n\n0,0,0,1\n2,200,0,1\n3,200,0,1\n5,832.5,0,1\n5.01,832.5,0,0\n5.5,832.5,0,0\n";
 
 double level_db(const std::vector<double>& x, double from_s, double to_s) {
     double sum = 0;
-    const auto first = static_cast<std::size_t>(from_s * kRate),
-               last = static_cast<std::size_t>(to_s * kRate);
+    const auto first = static_cast<std::size_t>(from_s * kRubRate),
+               last = static_cast<std::size_t>(to_s * kRubRate);
     for (std::size_t n = first; n < last; ++n) sum += x.at(n) * x.at(n);
     return 10 * std::log10(sum / static_cast<double>(last - first) + 1e-300);
 }
@@ -32,7 +32,7 @@ class Rub : public testing::Test {
   protected:
     Rub() {
         scratch.put("m.json", kMaterial);
-        scratch.put("s.csv", kStroke);
+        scratch.put("s.csv", kRubStroke);
     }
     Outcome rub(std::vector<std::string> more) const {
         std::vector<std::string> all{"rub", "m.json", "--stroke", "s.csv"};
@@ -51,8 +51,8 @@ TEST_F(Rub, has_the_level_of_the_law_and_is_silent_where_the_finger_rests) {
     EXPECT_EQ(file.format(4, 4), 48000u);
     EXPECT_EQ(file.format(14, 2), 24u);
     const std::vector<double> x = file.samples(24);
-    EXPECT_GE(x.size(), static_cast<std::size_t>(5.5 * kRate));
-    EXPECT_LT(x.size(), static_cast<std::size_t>(6 * kRate));
+    EXPECT_GE(x.size(), static_cast<std::size_t>(5.5 * kRubRate));
+    EXPECT_LT(x.size(), static_cast<std::size_t>(6 * kRubRate));
     EXPECT_NEAR(level_db(x, 0.1, 1.9), -20, 0.3);
     EXPECT_LT(level_db(x, 2.1, 2.9), -200);
     // Half way in the logarithm of speed, half way in dB.
@@ -99,7 +99,7 @@ TEST_F(Rub, refuses_bad_calls_by_name_and_leaves_what_was_there) {
     refuses("s.csv:3");
     scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,0,0,1\n900000,1,0,1\n");
     refuses("longer");
-    scratch.put("s.csv", kStroke);
+    scratch.put("s.csv", kRubStroke);
     scratch.put("m.json",
                 R"({"schema": "tribo.material/1", "stiffness_n_per_mm": 4, "viscosity_n_s_per_mm": 1})");
     refuses("no voices");

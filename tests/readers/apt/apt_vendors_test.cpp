@@ -105,7 +105,7 @@ TEST(AptVendors, PassesOverWordsOfPostProcessors) {
 }
 
 // The only move's arc: its middle and its length are those of the closed form.
-void expect_arc(const std::string& text, Vec3 middle, double length_mm) {
+void expect_vendor_arc(const std::string& text, Vec3 middle, double length_mm) {
     SCOPED_TRACE(text);
     const Program program = apt_in_mm(text);
     ASSERT_EQ(program.moves.size(), 1U);
@@ -118,22 +118,23 @@ TEST(AptVendors, CirclesBetweenGeometry) {
     const double q = 10 / std::sqrt(2.0), third = 2 * kPi / 3;
     const std::string from = "FROM/10,0,5\n", ahead = from + "INDIRV/0,1,0\n";
     const std::string line = "(LINE/0,0,5,0,10,5)\n";
-    expect_arc(ahead + "TLON, GOFWD / (CIRCLE / 0, 0, 5, 10), ON, (LINE / 0, 0, 5, 0, 10, 5)\n", {q, q, 5},
-               5 * kPi);
-    expect_arc(ahead + "TLON,\nGOFWD / (CIRCLE / 0,0,5,10),ON," + line, {q, q, 5}, 5 * kPi);
-    expect_arc(ahead + "TLON,GOFWD/ CIRCLE/ 0,0,5,10,ON,LINE/ 0,0,5,0,10,5\n", {q, q, 5}, 5 * kPi);
-    expect_arc(ahead + "TLON,GOFWD/(CYLNDR/0,0,-7,0,0,-1,10),ON," + line, {q, q, 5}, 5 * kPi);
-    expect_arc(ahead + "TLON,GOFWD/(CIRCLE/CANON,0,0,5,0,0,1,10),ON,(POINT/0,10,5)\n", {q, q, 5}, 5 * kPi);
-    expect_arc(from + "PSIS/(PLANE/0,0,1,5)\nINDIRP/10,4,5\nTLON,GOFWD/(CIRCLE/0,0,5,10),ON," + line,
-               {q, q, 5}, 5 * kPi);
+    expect_vendor_arc(ahead + "TLON, GOFWD / (CIRCLE / 0, 0, 5, 10), ON, (LINE / 0, 0, 5, 0, 10, 5)\n",
+                      {q, q, 5}, 5 * kPi);
+    expect_vendor_arc(ahead + "TLON,\nGOFWD / (CIRCLE / 0,0,5,10),ON," + line, {q, q, 5}, 5 * kPi);
+    expect_vendor_arc(ahead + "TLON,GOFWD/ CIRCLE/ 0,0,5,10,ON,LINE/ 0,0,5,0,10,5\n", {q, q, 5}, 5 * kPi);
+    expect_vendor_arc(ahead + "TLON,GOFWD/(CYLNDR/0,0,-7,0,0,-1,10),ON," + line, {q, q, 5}, 5 * kPi);
+    expect_vendor_arc(ahead + "TLON,GOFWD/(CIRCLE/CANON,0,0,5,0,0,1,10),ON,(POINT/0,10,5)\n", {q, q, 5},
+                      5 * kPi);
+    expect_vendor_arc(from + "PSIS/(PLANE/0,0,1,5)\nINDIRP/10,4,5\nTLON,GOFWD/(CIRCLE/0,0,5,10),ON," + line,
+                      {q, q, 5}, 5 * kPi);
     // The plane x = -5 cuts the circle at 120 and 240 degrees.
-    expect_arc(ahead + "TLON,GOFWD/(CIRCLE/0,0,5,10),ON,(PLANE/1,0,0,-5)\n", {5, 5 * std::sqrt(3.0), 5},
-               10 * third);
-    expect_arc(ahead + "TLON,GOFWD/(CIRCLE/0,0,5,10),ON,2,INTOF,(PLANE/1,0,0,-5)\n",
-               {-5, 5 * std::sqrt(3.0), 5}, 20 * third);
+    expect_vendor_arc(ahead + "TLON,GOFWD/(CIRCLE/0,0,5,10),ON,(PLANE/1,0,0,-5)\n",
+                      {5, 5 * std::sqrt(3.0), 5}, 10 * third);
+    expect_vendor_arc(ahead + "TLON,GOFWD/(CIRCLE/0,0,5,10),ON,2,INTOF,(PLANE/1,0,0,-5)\n",
+                      {-5, 5 * std::sqrt(3.0), 5}, 20 * third);
     // In the plane of x and z: square on the tool axis only by the direction.
-    expect_arc("FROM/10,0,0\nINDIRV/0,0,1\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,-10,0,0)\n",
-               {0, 0, 10}, 10 * kPi);
+    expect_vendor_arc("FROM/10,0,0\nINDIRV/0,0,1\nTLON,GOFWD/(CIRCLE/0,0,0,10),ON,(LINE/0,0,0,-10,0,0)\n",
+                      {0, 0, 10}, 10 * kPi);
 }
 
 TEST(AptVendors, PointsMayCarryTheNormalOfTheSurface) {
@@ -144,7 +145,7 @@ TEST(AptVendors, PointsMayCarryTheNormalOfTheSurface) {
 }
 
 // The heights of the ends over one hole, um; rapid ones with an r.
-std::string heights(const std::string& cycle) {
+std::string vendor_heights(const std::string& cycle) {
     const Program program = apt_in_mm("SPINDL/1000\nFROM/0,0,50\n" + cycle + "\nGOTO/0,0,0\nCYCLE/OFF\n");
     std::string text;
     for (const Move& move : program.moves) {
@@ -155,16 +156,16 @@ std::string heights(const std::string& cycle) {
 }
 
 TEST(AptVendors, CyclesOfCreoAndCatia) {
-    EXPECT_EQ(heights("CYCLE / DRILL, DEPTH, 5, MMPM, 80, CLEAR, 4, RAPTO, 3, RETURN, 6"),
+    EXPECT_EQ(vendor_heights("CYCLE / DRILL, DEPTH, 5, MMPM, 80, CLEAR, 4, RAPTO, 3, RETURN, 6"),
               "r6000 r1000 -5000 r6000");
-    EXPECT_EQ(heights("CYCLE / DRILL, DEPTH, 5, MMPM, 80, CLEAR, 4, RETURN, 0"), "r4000 -5000 r4000");
-    EXPECT_EQ(heights("CYCLE / BRKCHP, DEPTH, 5, STEP, 3, MMPM, 80, CLEAR, 4, BACK, 1"),
+    EXPECT_EQ(vendor_heights("CYCLE / DRILL, DEPTH, 5, MMPM, 80, CLEAR, 4, RETURN, 0"), "r4000 -5000 r4000");
+    EXPECT_EQ(vendor_heights("CYCLE / BRKCHP, DEPTH, 5, STEP, 3, MMPM, 80, CLEAR, 4, BACK, 1"),
               "r4000 -3000 r-2000 -5000 r4000");
-    EXPECT_EQ(heights("CYCLE / BORE, DEPTH, 5, MMPM, 80, CLEAR, 4, ORIENT, 90"), "r4000 -5000 4000");
-    EXPECT_EQ(heights("CYCLE / DEEP, 5, 80, MMPM, 3, 4"), "r3000 -4000 r3000 r-3746 -5000 r3000");
-    EXPECT_EQ(heights("CYCLE / DEEPHL, 5, 4, 80, MMPM, 3"), "r3000 -4000 r3000 r-3746 -5000 r3000");
-    EXPECT_EQ(heights("CYCLE / TAP, 5, 80, MMPM, 20, 3"), "r3000 -5000 3000");
-    EXPECT_EQ(heights("CYCLE / BORE9, FEDTO, 5, MMPM, 80, RAPTO, 4"), "r4000 -5000 4000");
+    EXPECT_EQ(vendor_heights("CYCLE / BORE, DEPTH, 5, MMPM, 80, CLEAR, 4, ORIENT, 90"), "r4000 -5000 4000");
+    EXPECT_EQ(vendor_heights("CYCLE / DEEP, 5, 80, MMPM, 3, 4"), "r3000 -4000 r3000 r-3746 -5000 r3000");
+    EXPECT_EQ(vendor_heights("CYCLE / DEEPHL, 5, 4, 80, MMPM, 3"), "r3000 -4000 r3000 r-3746 -5000 r3000");
+    EXPECT_EQ(vendor_heights("CYCLE / TAP, 5, 80, MMPM, 20, 3"), "r3000 -5000 3000");
+    EXPECT_EQ(vendor_heights("CYCLE / BORE9, FEDTO, 5, MMPM, 80, RAPTO, 4"), "r4000 -5000 4000");
     const Program tap =
         apt_in_mm("SPINDL/1000\nFROM/0,0,50\nCYCLE/TAP,DEPTH,5,TPI,20,CLEAR,3\nGOTO/0,0,0\nCYCLE/OFF\n");
     EXPECT_NEAR(tap.moves.at(1).feed_mm_per_min, 1270, 1e-9);

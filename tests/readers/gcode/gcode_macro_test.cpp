@@ -9,17 +9,17 @@
 namespace tribo::readers {
 namespace {
 
-motion::Program fanuc(const std::string& text) {
+motion::Program macro(const std::string& text) {
     GcodeOptions options;
     options.dialect = GcodeDialect::fanuc;
     return program_of(text, options);
 }
 
 double feed_of(const std::string& text) {
-    return feed_mm(fanuc("G21 M3 F100\nG0 X0 Y0 Z0\nG1\n" + text));
+    return feed_mm(macro("G21 M3 F100\nG0 X0 Y0 Z0\nG1\n" + text));
 }
 double end_x(const std::string& text) {
-    const motion::Program program = fanuc("G21 M3 F100\nG0 X0 Y0 Z0\nG1\n" + text);
+    const motion::Program program = macro("G21 M3 F100\nG0 X0 Y0 Z0\nG1\n" + text);
     return program.moves.back().end.tip_mm.x;
 }
 
@@ -59,7 +59,7 @@ TEST(GcodeMacro, KnowsVacantVariables) {
     EXPECT_DOUBLE_EQ(end_x("IF[#1 EQ 0] THEN #2=8\nX[#1+5]\n"), 5);  // vacant is not 0
     EXPECT_DOUBLE_EQ(feed_of("X5 Y#9\n"), 5);                        // the word is left out
     EXPECT_DOUBLE_EQ(end_x("#1=5\n#1=#0\nIF[#1 EQ #0] THEN #2=6\nX#2\n"), 6);
-    EXPECT_TRUE(warns_of(fanuc("G21\nG0 X#9 Y0\n"), 2, "a word with it is left out"));
+    EXPECT_TRUE(warns_of(macro("G21\nG0 X#9 Y0\n"), 2, "a word with it is left out"));
 }
 
 TEST(GcodeMacro, PassesArguments) {
@@ -118,13 +118,13 @@ TEST(GcodeMacro, ComputesAsAFanucControl) {
 
 TEST(GcodeMacro, SaysWhatItLeavesOut) {
     const motion::Program printed =
-        fanuc("POPEN\nDPRNT[X#100[53]]\nPCLOS\nG21 M3 F100\nG0 X0 Y0 Z0\nG1 X5\n");
+        macro("POPEN\nDPRNT[X#100[53]]\nPCLOS\nG21 M3 F100\nG0 X0 Y0 Z0\nG1 X5\n");
     EXPECT_TRUE(warns_of(printed, 1, "output to a printer"));
     EXPECT_DOUBLE_EQ(feed_mm(printed), 5);
-    const motion::Program stopped = fanuc("G21 M3 F100\nG0 X0 Y0 Z0\nG1 X5\n#3000=1(NO TOOL)\nX9\n");
+    const motion::Program stopped = macro("G21 M3 F100\nG0 X0 Y0 Z0\nG1 X5\n#3000=1(NO TOOL)\nX9\n");
     EXPECT_TRUE(warns_of(stopped, 4, "an alarm: NO TOOL"));
     EXPECT_DOUBLE_EQ(feed_mm(stopped), 5);
-    const motion::Program waited = fanuc("G21 M3 F100\nG0 X0 Y0 Z0\nG1 X5\n#3006=1(TURN)\nX9\n");
+    const motion::Program waited = macro("G21 M3 F100\nG0 X0 Y0 Z0\nG1 X5\n#3006=1(TURN)\nX9\n");
     EXPECT_TRUE(warns_of(waited, 4, "a message: TURN"));
     EXPECT_DOUBLE_EQ(feed_mm(waited), 9);
 }

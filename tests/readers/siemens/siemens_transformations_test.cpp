@@ -155,7 +155,7 @@ double fed_at(const motion::Program& program, double z) {
     return sum;
 }
 
-motion::Program milled(std::string_view text) {
+motion::Program transformed(std::string_view text) {
     GcodeOptions options;
     options.tools = {{1, 10}};
     return siemens(text, options);
@@ -163,7 +163,7 @@ motion::Program milled(std::string_view text) {
 
 TEST(SiemensContourPockets, AreFilledWithRings) {
     const std::string contour = "M30\nEDGE_A:\nG1 X0 Y0\nX60\nY40\nX0\nY0\nEDGE_E:\n";
-    const motion::Program program = milled(
+    const motion::Program program = transformed(
         "CYCLE62(,2,\"EDGE_A\",\"EDGE_E\")\n"
         "CYCLE63(\"P1\",1,20,0,2,-4,300,100,5,2,0,0,0,,,,,,1,2,,,,0,201,0)\n" +
         contour);
@@ -171,13 +171,13 @@ TEST(SiemensContourPockets, AreFilledWithRings) {
         EXPECT_NEAR(fed_at(program, z), 40 + 80 + 120 + 160 + 3 * std::hypot(5, 5), 1e-4) << z;
     EXPECT_EQ(end_of(program).z, 20);
     // The same with the step in percent of the tool and the depth from the surface on.
-    const motion::Program percent = milled(
+    const motion::Program percent = transformed(
         "CYCLE62(,2,\"EDGE_A\",\"EDGE_E\")\n"
         "CYCLE63(\"P1\",1,20,0,2,4,300,100,50,2,0,0,0,,,,,,1,2,,,,0,201,11)\n" +
         contour);
     EXPECT_LT(apart_mm(program, percent), 1e-9);
     // Its edge alone.
-    const motion::Program edge = milled(
+    const motion::Program edge = transformed(
         "CYCLE62(,2,\"EDGE_A\",\"EDGE_E\")\n"
         "CYCLE63(\"P1\",4,20,0,2,-4,300,100,5,4,1,0,0,,,,,,1,2,,,,0,201,0)\n" +
         contour);
@@ -185,7 +185,7 @@ TEST(SiemensContourPockets, AreFilledWithRings) {
 }
 
 TEST(SiemensContourPockets, HaveIslands) {
-    const motion::Program program = milled(
+    const motion::Program program = transformed(
         "CYCLE62(,2,\"EDGE_A\",\"EDGE_E\")\nCYCLE62(,2,\"ISLE_A\",\"ISLE_E\")\n"
         "CYCLE63(\"P1\",1,20,0,2,-4,300,100,5,4,0,0,1,,,,,,1,2,,,,0,201,0)\nM30\n"
         "EDGE_A:\nG1 X0 Y0\nX60\nY40\nX0\nY0\nEDGE_E:\n"
@@ -200,10 +200,12 @@ TEST(SiemensContourPockets, HaveIslands) {
 
 TEST(SiemensCycles, PolygonsHaveEqualSides) {
     const double side = 2 * 20 * std::tan(kPi / 6);
-    const motion::Program hexagon = milled("CYCLE79(20,0,2,-5,6,40,50,40,0,0,0,5,5,0,0,300,0,1,0,0,0,0,0)\n");
+    const motion::Program hexagon =
+        transformed("CYCLE79(20,0,2,-5,6,40,50,40,0,0,0,5,5,0,0,300,0,1,0,0,0,0,0)\n");
     EXPECT_NEAR(fed_at(hexagon, -5), 6 * side + 2 * kPi * 5 + 2 * 5, 1e-9);
     // A round blank of 60: rings of 5 mm, the second one at the first's distance and 5.
-    const motion::Program blank = milled("CYCLE79(20,0,2,-5,6,40,50,40,0,0,60,5,5,0,0,300,0,1,0,0,0,0,0)\n");
+    const motion::Program blank =
+        transformed("CYCLE79(20,0,2,-5,6,40,50,40,0,0,60,5,5,0,0,300,0,1,0,0,0,0,0)\n");
     EXPECT_NEAR(fed_at(blank, -5), 2 * 6 * side + 2 * kPi * (5 + 10) + 5 + 10 + 15, 1e-9);
 }
 

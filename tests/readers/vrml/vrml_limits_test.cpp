@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include "readers/mesh/model_samples.hpp"
+#include "readers/vrml/vrml_text.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define TRIBO_SANITIZED
@@ -18,10 +19,9 @@
 namespace tribo::readers {
 namespace {
 
-const std::string kHeader = "#VRML V2.0 utf8\n";
-const std::string kTriangle =
-    "Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } coordIndex [ 0 1 2 "
-    "-1 ] } }\n";
+using test::kHeader;
+using test::kTriangle;
+
 constexpr const char* kRead = "";  // no refusal
 
 std::string repeated(const std::string& text, int times) {

@@ -3,19 +3,19 @@
 #include <map>
 
 #include "readers/mesh/model_samples.hpp"
+#include "readers/vrml/vrml_text.hpp"
 
 namespace tribo::readers {
 namespace {
 
 using namespace test;
 
-const std::string kHeader = "#VRML V2.0 utf8\n";
-const std::string kBox = "Shape { geometry Box { } } ";  // 8 mm3, from -1 to 1
+const std::string kCubeOf2 = "Shape { geometry Box { } } ";  // 8 mm3, from -1 to 1
 
 // A folder in memory.
 using Files = std::map<std::string, std::string>;
 
-Result<Model> read(const std::string& body, const Files& files = {}) {
+Result<Model> read_among(const std::string& body, const Files& files = {}) {
     ModelOptions options;
     options.source_name = "part.wrl";
     options.neighbours = [&](std::string_view url, const std::string&,
@@ -30,7 +30,7 @@ Result<Model> read(const std::string& body, const Files& files = {}) {
 }
 
 TEST(VrmlPrototypes, AnInstanceTakesTheValuesGivenElseTheDefaults) {
-    const auto model = read(
+    const auto model = read_among(
         "PROTO Post [ field SFVec3f size 1 1 1 field SFVec3f at 0 0 0 eventIn SFBool go exposedField MFNode "
         "more [ ] "
         "] {\n"
@@ -40,7 +40,7 @@ TEST(VrmlPrototypes, AnInstanceTakesTheValuesGivenElseTheDefaults) {
         "  TimeSensor { enabled IS go }\n}\n"
         "Post { }\n"
         "Post { size 2 4 8 at 10 0 0 more [ " +
-        kBox + " Post { at 0 0 5 } ] }\n");
+        kCubeOf2 + " Post { at 0 0 5 } ] }\n");
     ASSERT_TRUE(is_read(model));
     EXPECT_EQ(model->mesh.triangles.size(), 4U * 12);
     EXPECT_NEAR(volume_mm3(model->mesh), 1 + 64 + 8 + 1, 1e-9);
@@ -49,7 +49,7 @@ TEST(VrmlPrototypes, AnInstanceTakesTheValuesGivenElseTheDefaults) {
 }
 
 TEST(VrmlPrototypes, PrototypesStandInPrototypesAndAnywhereANodeMay) {
-    const auto model = read(
+    const auto model = read_among(
         "PROTO Cube [ field SFVec3f edges 1 1 1 ] { Shape { geometry DEF Own Box { size IS edges } } }\n"
         "PROTO Pair [ field SFVec3f e 1 2 3 field SFVec3f at 1 0 0 ] {\n"
         "  PROTO Tall [ field SFFloat unused 1 ] { Cube { edges 1 9 1 } }\n"
@@ -64,12 +64,12 @@ TEST(VrmlPrototypes, PrototypesStandInPrototypesAndAnywhereANodeMay) {
 }
 
 TEST(VrmlPrototypes, NamesHoldInTheirBodyOnly) {
-    expect_refused({"use", kHeader + "DEF A " + kBox + "PROTO P [ ] {\nGroup { children USE A } }\nP {}", 3,
-                    "USE of 'A'"},
+    expect_refused({"use", kHeader + "DEF A " + kCubeOf2 + "PROTO P [ ] {\nGroup { children USE A } }\nP {}",
+                    3, "USE of 'A'"},
                    ModelFormat::vrml);
     expect_refused({"use of inner", kHeader + "PROTO P [ ] { DEF A Group { } }\nUSE A", 3, "USE of 'A'"},
                    ModelFormat::vrml);
-    const auto hidden = read("PROTO P [ ] { PROTO Q [ ] { " + kBox + "} Q { } }\nP { }\nQ { }");
+    const auto hidden = read_among("PROTO P [ ] { PROTO Q [ ] { " + kCubeOf2 + "} Q { } }\nP { }\nQ { }");
     ASSERT_TRUE(is_read(hidden));
     EXPECT_EQ(hidden->mesh.triangles.size(), 12U);
     ASSERT_EQ(hidden->warnings.size(), 1U);
@@ -78,15 +78,15 @@ TEST(VrmlPrototypes, NamesHoldInTheirBodyOnly) {
 
 TEST(VrmlPrototypes, InlineAndExternalPrototypesReadTheModelsOtherFiles) {
     const Files files = {
-        {"bolt.wrl", kHeader + "DEF A " + kBox + "Transform { translation 0 0 5 children USE A }"},
+        {"bolt.wrl", kHeader + "DEF A " + kCubeOf2 + "Transform { translation 0 0 5 children USE A }"},
         {"lib.wrl", "\xEF\xBB\xBF" + kHeader +
                         "PROTO Nut [ field SFVec3f s 1 1 1 ] { Shape { geometry Box { size IS s } } }\n"
                         "PROTO Bar [ ] { Nut { s 1 1 7 } }\n" +
-                        kBox},
-        {"bare.wrl", kBox},
+                        kCubeOf2},
+        {"bare.wrl", kCubeOf2},
         {"deep.wrl", kHeader + "Inline { url \"bolt.wrl\" }"},
     };
-    const auto model = read(
+    const auto model = read_among(
         "EXTERNPROTO Nut [ field SFVec3f s ] [ \"gone.wrl#Nut\" \"lib.wrl#Nut\" ]\n"
         "EXTERNPROTO First [ ] \"lib.wrl\"\nEXTERNPROTO Bar [ ] \"lib.wrl#Bar\"\n"
         "PROTO Part [ field MFString file [ ] ] { Inline { url IS file } }\n"
@@ -103,8 +103,9 @@ TEST(VrmlPrototypes, InlineAndExternalPrototypesReadTheModelsOtherFiles) {
 }
 
 TEST(VrmlPrototypes, SkipsWhatAnExternalPrototypeDoesNotFind) {
-    const auto model = read("EXTERNPROTO Far [ field SFInt32 a exposedField SFNode b ] \"urn:x#Far\"\n" +
-                            kBox + "\nFar { a 1 b " + kBox + "} Group { children Far { } }");
+    const auto model =
+        read_among("EXTERNPROTO Far [ field SFInt32 a exposedField SFNode b ] \"urn:x#Far\"\n" + kCubeOf2 +
+                   "\nFar { a 1 b " + kCubeOf2 + "} Group { children Far { } }");
     ASSERT_TRUE(is_read(model));
     EXPECT_EQ(model->mesh.triangles.size(), 12U);
     ASSERT_EQ(model->warnings.size(), 1U);
@@ -122,14 +123,14 @@ TEST(VrmlPrototypes, FilesThatCannotBeReadAreRefusedWhereTheyWouldBeSeen) {
                    {"lib.wrl", kHeader + "PROTO Nut [ ] { Group { } }"}};
     for (int i = 0; i < 12; ++i) {
         files["f" + std::to_string(i) + ".wrl"] =
-            kHeader + (i < 11 ? "Inline { url \"f" + std::to_string(i + 1) + ".wrl\" }" : kBox);
+            kHeader + (i < 11 ? "Inline { url \"f" + std::to_string(i + 1) + ".wrl\" }" : kCubeOf2);
     }
     struct Row {
         std::string body;
         const char* message;
     };
     const Row rows[] = {
-        {kBox + "\n  Inline { url \"gone.wrl\" }",
+        {kCubeOf2 + "\n  Inline { url \"gone.wrl\" }",
          "part.wrl:3:16: error: the file 'gone.wrl' is not read: there is no such file; put the file beside "
          "the "
          "model, or export the model as one file"},
@@ -148,11 +149,11 @@ TEST(VrmlPrototypes, FilesThatCannotBeReadAreRefusedWhereTheyWouldBeSeen) {
         {chain, "f7.wrl:2:14: error: files name each other more than 8 deep; export the model as one file"},
     };
     for (const Row& row : rows) {
-        const auto model = read(row.body, files);
+        const auto model = read_among(row.body, files);
         ASSERT_FALSE(model.has_value()) << row.body;
         EXPECT_EQ(model.error().text(), row.message);
         // Nobody looks at it: no matter.
-        EXPECT_TRUE(is_read(read("Switch { choice [ " + row.body + "] }" + kBox, files)));
+        EXPECT_TRUE(is_read(read_among("Switch { choice [ " + row.body + "] }" + kCubeOf2, files)));
     }
     const auto alone = read_model(kHeader + "Inline { url \"a.wrl\" }", {.source_name = "part.wrl"});
     ASSERT_FALSE(alone.has_value());
@@ -167,7 +168,7 @@ TEST(VrmlPrototypes, EachFileIsAskedForOnceFromEachFile) {
                              std::uint64_t) -> Result<ModelNeighbour> {
         ++asked;
         EXPECT_EQ(from, "part.wrl");
-        return ModelNeighbour{"box.wrl", kHeader + kBox};
+        return ModelNeighbour{"box.wrl", kHeader + kCubeOf2};
     };
     std::string body = kHeader;
     for (int i = 0; i < 100; ++i) body += "Inline { url \"box.wrl\" }\n";

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // What the VRML reader refuses or warns of: file, line, column, text.
 #include "readers/mesh/model_samples.hpp"
+#include "readers/vrml/vrml_text.hpp"
 
 namespace tribo::readers {
 namespace {
 
-const std::string kHeader = "#VRML V2.0 utf8\n";
+using test::kHeader;
+
 const std::string kBox = "Shape { geometry Box { } }\n";
 
 struct Row {

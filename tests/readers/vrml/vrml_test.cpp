@@ -9,17 +9,12 @@
 #include "places.hpp"
 #include "readers/mesh/model_samples.hpp"
 #include "readers/vrml/lexer.hpp"
+#include "readers/vrml/vrml_text.hpp"
 
 namespace tribo::readers {
 namespace {
 
 using namespace test;
-
-const std::string kHeader = "#VRML V2.0 utf8\n";
-// A triangle with legs of 1 along x and y, corner at the origin.
-const std::string kTriangle =
-    "Shape { geometry IndexedFaceSet { coord Coordinate { point [ 0 0 0, 1 0 0, 0 1 0 ] } coordIndex [ 0 1 2 "
-    "-1 ] } }\n";
 
 Result<Model> read(const std::string& body) {
     return read_model(kHeader + body, {.source_name = "part.wrl"});

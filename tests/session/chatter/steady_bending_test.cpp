@@ -9,13 +9,12 @@
 #include <map>
 #include <rapidcheck/gtest.h>
 
+#include "base/math.hpp"
 #include "session/chatter/row_simulation.hpp"
 #include "wall_cut.hpp"
 
 namespace tribo::session {
 namespace {
-
-constexpr double kPi = math::kPi;
 
 // Rows of three turns.
 double row_s(const Wall& w) {
@@ -38,8 +37,8 @@ Vec3 force_by_slices(const Wall& w, double angle_rad, double height_mm) {
     for (int tooth = 0; tooth < w.cutter.flutes; ++tooth) {
         for (int n = 0; n < kSlices; ++n) {
             const double z = (n + 0.5) * dz;
-            double phi = angle_rad + lag * (height_mm - z) + 2 * kPi * tooth / w.cutter.flutes;
-            phi -= 2 * kPi * std::floor(phi / (2 * kPi));
+            double phi = angle_rad + lag * (height_mm - z) + 2 * math::kPi * tooth / w.cutter.flutes;
+            phi -= 2 * math::kPi * std::floor(phi / (2 * math::kPi));
             if (phi < w.entry_rad || phi > w.exit_rad) continue;
             const double chip = w.feed_mm * std::sin(phi);
             const double tangential = (k.ktc * chip + k.kte) * dz, radial = (k.krc * chip + k.kre) * dz;
@@ -54,7 +53,7 @@ Vec3 force_by_slices(const Wall& w, double angle_rad, double height_mm) {
 // summed twice from the top down.
 double yield_by_steps(double diameter_mm, double length_mm, double force_mm, double at_mm) {
     constexpr int kSteps = 20'000;
-    const double stiffness = 600e3 * kPi / 64 * std::pow(0.8 * diameter_mm, 4), dz = length_mm / kSteps;
+    const double stiffness = 600e3 * math::kPi / 64 * std::pow(0.8 * diameter_mm, 4), dz = length_mm / kSteps;
     double slope = 0, shift = 0;
     for (int n = 0; n < kSteps; ++n) {
         const double z = length_mm - (n + 0.5) * dz;
@@ -70,8 +69,8 @@ TEST(SteadyBending, leaves_what_slices_and_a_beam_in_steps_give) {
         double entry_rad, exit_rad, helix_deg;
         int flutes;
     };
-    for (const Case& c : {Case{0, 1.2, 0, 6}, Case{2, kPi, 0, 3}, Case{0, 1.2, 30, 2}, Case{2, kPi, 30, 4},
-                          Case{0, 2.5, -40, 3}, Case{0, kPi, 15, 3}}) {
+    for (const Case& c : {Case{0, 1.2, 0, 6}, Case{2, math::kPi, 0, 3}, Case{0, 1.2, 30, 2},
+                          Case{2, math::kPi, 30, 4}, Case{0, 2.5, -40, 3}, Case{0, math::kPi, 15, 3}}) {
         Wall w;
         w.coefficients = {700, 200, 0, 12, 9, 0};
         w.cutter.flutes = c.flutes;
@@ -87,7 +86,7 @@ TEST(SteadyBending, leaves_what_slices_and_a_beam_in_steps_give) {
             const bool left = t.normal.y < 0;
             const double height = t.from_mm.z - 3;
             // Straight edges enter and leave at once: the force that was there just before is what bends.
-            const double end = (left ? 0 : kPi) - 1e-9;
+            const double end = (left ? 0 : math::kPi) - 1e-9;
             const double force = force_by_slices(w, end, height).y;
             const double expected =
                 (left ? -1 : 1) * force * yield_by_steps(10, 35, 0.5 * w.depth_mm, height);
@@ -129,7 +128,7 @@ RC_GTEST_PROP(SteadyBending, is_what_modes_leave_that_are_too_fast_to_ring, ()) 
     w.seconds = 4 * row_s(w);
     const bool climbs = *rc::gen::arbitrary<bool>();
     w.entry_rad = climbs ? between(1'700, 2'800) : 0;
-    w.exit_rad = climbs ? kPi : between(400, 1'500);
+    w.exit_rad = climbs ? math::kPi : between(400, 1'500);
     const double tilt = between(-1'500, 1'500), turn = between(-3'000, 3'000);
     w.axis = {std::sin(tilt), 0, std::cos(tilt)};
     w.feed = std::cos(turn) * Vec3{std::cos(tilt), 0, -std::sin(tilt)} + std::sin(turn) * Vec3{0, 1, 0};

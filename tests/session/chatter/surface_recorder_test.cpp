@@ -8,8 +8,8 @@
 #include <complex>
 #include <gtest/gtest.h>
 #include <map>
-#include <numbers>
 
+#include "base/math.hpp"
 #include "session/chatter/row_simulation.hpp"
 #include "session/chatter/row_stability.hpp"
 #include "wall_cut.hpp"
@@ -17,7 +17,6 @@
 namespace tribo::session {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Complex = std::complex<double>;
 
 surface::ToothTraces recorded(const Wall& w) {
@@ -61,7 +60,7 @@ double wall_error_mm(const Wall& w, double at_rad, double height_mm) {
         const double turn = m * teeth * lag * w.depth_mm;
         const Complex over_height =
             std::abs(turn) < 1e-9 ? 1 : (1.0 - std::exp(Complex(0, -turn))) / Complex(0, turn);
-        return w.depth_mm * over_height * sum / (2 * kPi / teeth);
+        return w.depth_mm * over_height * sum / (2 * math::kPi / teeth);
     };
     double error = 0;
     for (int m = -60; m <= 60; ++m) {
@@ -83,8 +82,8 @@ TEST(SurfaceRecorder, finds_the_steady_wall_error_of_the_harmonics) {
     struct Case {
         double entry_rad, exit_rad, helix_deg;
     };
-    for (const Case& c : {Case{0, 1.2, 0}, Case{2, kPi, 0}, Case{0, 1.2, 30}, Case{2, kPi, 30},
-                          Case{0, 2.5, -40}, Case{0, kPi, 0}}) {
+    for (const Case& c : {Case{0, 1.2, 0}, Case{2, math::kPi, 0}, Case{0, 1.2, 30}, Case{2, math::kPi, 30},
+                          Case{0, 2.5, -40}, Case{0, math::kPi, 0}}) {
         for (const double rpm : {4000.0, 7300.0, 9500.0}) {
             Wall w;
             w.modes = {{{0, 1, 0}, 922, 0.03, 6000}};
@@ -104,7 +103,7 @@ TEST(SurfaceRecorder, finds_the_steady_wall_error_of_the_harmonics) {
                 const bool left = t.normal.y < 0;
                 const double height = t.from_mm.z - 3;
                 const auto [known, is_new] = errors.try_emplace({left, height});
-                if (is_new) known->second = wall_error_mm(w, left ? 0 : kPi, height);
+                if (is_new) known->second = wall_error_mm(w, left ? 0 : math::kPi, height);
                 const double r = known->second;
                 for (std::size_t n = t.first; n < t.first + t.count; ++n) {
                     const double mark = static_cast<double>(all.marks[n].displaced_mm);
@@ -191,7 +190,7 @@ TEST(SurfaceRecorder, leaves_waves_of_the_length_that_theory_names) {
     // Feed speed over the distance of the chatter line from the nearest harmonic of the teeth.
     const double tooth_hz = w.rpm / 60 * w.cutter.flutes;
     const double off_hz = std::abs(std::remainder(known.chatter_hz, tooth_hz));
-    EXPECT_NEAR(2 * kPi * w.feed_mm / std::abs(std::arg(found)) / (feed_speed(w) / off_hz), 1, 0.01);
+    EXPECT_NEAR(2 * math::kPi * w.feed_mm / std::abs(std::arg(found)) / (feed_speed(w) / off_hz), 1, 0.01);
 }
 
 TEST(SurfaceRecorder, leaves_waves_of_two_feeds_per_tooth_where_the_period_doubles) {
@@ -199,7 +198,7 @@ TEST(SurfaceRecorder, leaves_waves_of_two_feeds_per_tooth_where_the_period_doubl
     w.modes = {{{1, 0, 0}, 922, 0.011, 1340}, {{0, 1, 0}, 3000, 0.03, 10000}};
     w.rpm = 10000;
     w.depth_mm = 2.6;
-    w.entry_rad = kPi / 2;
+    w.entry_rad = math::kPi / 2;
     const dynamics::Stability known = theory(w);
     ASSERT_EQ(known.kind, dynamics::ChatterKind::period_doubling);
     ASSERT_GT(known.multiplier, 1.02);
@@ -220,7 +219,7 @@ TEST(SurfaceRecorder, takes_the_displacement_of_the_instant) {
     w.seconds = 0.2;
     const surface::ToothTraces all = recorded(w);
     dynamics::Vibration vibration(w.modes, w.cutter, w.coefficients, 48000);
-    const milling::EngagementBand band{0, w.depth_mm, 0, kPi};
+    const milling::EngagementBand band{0, w.depth_mm, 0, math::kPi};
     vibration.engage({&band, 1}, {.across_mm = w.feed_mm}, w.rpm);
     std::vector<Vec3> samples;
     for (int n = 0; n < 48000 * w.seconds; ++n) samples.push_back(vibration.step().displacement_mm);

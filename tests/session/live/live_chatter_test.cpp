@@ -42,12 +42,12 @@ LiveInput bending_slot() {
     return input;
 }
 
-bool always() {
+bool goes_on() {
     return true;
 }
 
 // Reads the frames of a live mill.
-struct Viewer {
+struct ChatterViewer {
     std::vector<protocol::LiveRow> rows;
     std::vector<protocol::LiveChatter> multipliers;
     protocol::LiveChart chart;
@@ -135,7 +135,7 @@ class Played {
     std::vector<float> play(double seconds) {
         std::vector<float> left;
         for (const double end_s = heard_s + seconds; heard_s < end_s; heard_s += kPictureS) {
-            mill->tick(kPictureS, always, viewer.sink());
+            mill->tick(kPictureS, goes_on, viewer.sink());
             ear->follow(mill->clock_s(), mill->speed(), mill->playing());
             std::vector<float> block(static_cast<std::size_t>(2 * kRate * kPictureS));
             ear->render(block);
@@ -146,7 +146,7 @@ class Played {
 
     std::unique_ptr<LiveMill> mill;
     std::unique_ptr<LiveSound> ear;
-    Viewer viewer;
+    ChatterViewer viewer;
     double heard_s = 0;
 };
 
@@ -238,14 +238,14 @@ TEST(LiveChatter, WhoComesLateSeesTheSame) {
         slot.viewer.take(frame);
     };
     const auto pass = [&](int pictures) {
-        for (int n = 0; n < pictures; ++n) slot.mill->tick(kPictureS, always, both);
+        for (int n = 0; n < pictures; ++n) slot.mill->tick(kPictureS, goes_on, both);
     };
     pass(90);
     CutChange faster;
     faster.speed_factor = 9.0 / 8;
     slot.mill->set_change(faster);
     pass(90);
-    Viewer late;
+    ChatterViewer late;
     for (const FrameCache::Frame& frame : memory.replay()) late.take(*frame);
     ASSERT_EQ(late.multipliers.size(), slot.viewer.multipliers.size());
     for (std::size_t n = 0; n < late.multipliers.size(); ++n)
@@ -304,9 +304,9 @@ TEST(LiveChatter, ComputesInSlicesAlsoWithoutTime) {
     auto ready = std::make_shared<std::optional<LiveInput>>(bending_slot());
     auto mill = *LiveMill::create([=]() -> Result<LiveInput> { return *std::exchange(*ready, std::nullopt); },
                                   serial_for);
-    Viewer viewer;
+    ChatterViewer viewer;
     mill->set_clock(mill->duration_s());
-    mill->tick(0, always, viewer.sink());
+    mill->tick(0, goes_on, viewer.sink());
     mill->set_change({.speed_factor = 1.5});
     const auto never = [] { return false; };
     for (int n = 0; n < 300; ++n) mill->tick(kPictureS, never, viewer.sink());

@@ -20,13 +20,13 @@ namespace {
 constexpr double kRateHz = 1000;
 
 // A slot along x at y = 10, 2 mm deep, from 0.25 s on; 12.5 mm/s.
-Result<MillSetup> slot() {
+Result<MillSetup> finger_slot() {
     MillSetup s = block_setup({{0, 0, -8}, {40, 20, 0}}, {.diameter_mm = 8, .length_mm = 20}, 0.5);
     add_cut_in_pieces(s, straight_cut({-5, 10, -2}, {45, 10, -2}, 750), LiveMill::kPieceMm);
     return s;
 }
 
-bool always() {
+bool never_stops() {
     return true;
 }
 
@@ -35,7 +35,7 @@ void drop(std::span<const std::uint8_t>) {}
 // Mill, picture and servo in one thread: a picture, then the ticks until the next.
 class Bench {
   public:
-    Bench() : live(*LiveMill::create(slot, serial_for)), finger({}, nullptr, {20, 10, 5}) {
+    Bench() : live(*LiveMill::create(finger_slot, serial_for)), finger({}, nullptr, {20, 10, 5}) {
         live->set_session_observer(
             [this](MillSession* session) { finger.force_source().set_session(session); });
     }
@@ -43,7 +43,7 @@ class Bench {
 
     void run(double seconds, double pictures_per_s = 60) {
         for (int n = 0; n < std::lround(pictures_per_s * seconds); ++n) {
-            live->tick(1 / pictures_per_s, always, drop);
+            live->tick(1 / pictures_per_s, never_stops, drop);
             scene.program_s = live->clock_s();
             scene.pace = live->pace();
             finger.show(scene, live->state().tip_mm, [this](auto frame) { take(frame); });
@@ -103,8 +103,8 @@ TEST(LiveFinger, StandsOnTheNewSurfaceWhereMaterialIsCutAwayUnderIt) {
 // The table that a servo plays is the cut's: the mean over turns of what the hand feels is the row's mean
 // force, scaled, while the finger is at the cutter.
 TEST(LiveFinger, FeelsTheCutNearTheCutterAndNothingFarFromIt) {
-    ForceLookAhead ahead(*slot(), serial_for);
-    ASSERT_TRUE(ahead.run(always));
+    ForceLookAhead ahead(*finger_slot(), serial_for);
+    ASSERT_TRUE(ahead.run(never_stops));
     Bench bench;
     bench.finger.force_source().set_force(ahead.table({}, {}), {});
     bench.finger.force_source().set_textures(ahead.textures());
@@ -160,24 +160,24 @@ TEST(LiveFinger, GivesNoForceFromTheNextTickOnWhenStopped) {
 
 // At equal times of the program the tooth's phase in the force felt is that of the spindle that is shown.
 TEST(LiveFinger, FeelsTheTeethWhereTheSpindleShowsThem) {
-    ForceLookAhead ahead(*slot(), serial_for);
-    ASSERT_TRUE(ahead.run(always));
+    ForceLookAhead ahead(*finger_slot(), serial_for);
+    ASSERT_TRUE(ahead.run(never_stops));
     for (const double feed_factor : {1.0, 1.7}) {
         CutChange change;
         change.feed_factor = feed_factor;
         change.speed_factor = 0.8;
         const contact::ForceTable table = ahead.table(change, {});
-        auto live = *LiveMill::create(slot, serial_for);
+        auto live = *LiveMill::create(finger_slot, serial_for);
         live->set_change(change);
-        const milling::Cutter cutter = slot()->cutters[0];
-        milling::ForceModel model(cutter, slot()->coefficients);
+        const milling::Cutter cutter = finger_slot()->cutters[0];
+        milling::ForceModel model(cutter, finger_slot()->coefficients);
         milling::Engagement full;  // a slot 2 mm deep
         full.bands = {{0, 2, 0, math::kPi}};
         const double feed_per_tooth = 750.0 / 6000 / cutter.flutes * change.chip_factor();
         model.engage(full, {feed_per_tooth, 0});
         for (const double t : {1.5, 2.0, 2.5}) {
             live->set_clock(t);
-            live->tick(0, always, drop);
+            live->tick(0, never_stops, drop);
             const double shown = live->state().spindle_angle_rad;
             // Tooth harmonics of both over a turn, the table's by its clock, the model's by the angle shown.
             const double turn_s = 60 / 6000.0 / change.angle_factor();
@@ -200,7 +200,7 @@ TEST(LiveFinger, FeelsTheTeethWhereTheSpindleShowsThem) {
 
 // A servo on a thread of its own while the part is cut, begun again and taken away: for the sanitizer.
 TEST(LiveFinger, GoesOnWhileAnotherThreadMills) {
-    auto live = *LiveMill::create(slot, serial_for);
+    auto live = *LiveMill::create(finger_slot, serial_for);
     LiveFinger finger({}, nullptr, {20, 10, 5});
     live->set_session_observer([&](MillSession* session) { finger.force_source().set_session(session); });
     std::atomic<bool> over{false};
@@ -213,7 +213,7 @@ TEST(LiveFinger, GoesOnWhileAnotherThreadMills) {
     LiveScene scene;
     bool begun_again = false;
     while (live->playing()) {
-        live->tick(1.0 / 60, always, drop);
+        live->tick(1.0 / 60, never_stops, drop);
         scene.program_s = live->clock_s();
         scene.pace = live->pace();
         finger.show(scene, live->state().tip_mm, drop);
@@ -244,14 +244,14 @@ TEST(LiveFinger, IsLeftAloneByAPictureThatStops) {
 
 // Where there is one thread: both come from what was cut in the last moments.
 TEST(SingleThreadedTouch, ShowsTheGroovesAndGivesTheForceOfWhatWasJustCut) {
-    const auto live = *LiveMill::create(slot, serial_for);
+    const auto live = *LiveMill::create(finger_slot, serial_for);
     LiveController controller(*live, {}, nullptr, {});
     SingleThreadedTouch touch(controller);
     int textures = 0;
     double most_n = 0;
     live->play(true);
     for (int picture = 0; picture < 120; ++picture) {
-        live->tick(1.0 / 60, always, drop);
+        live->tick(1.0 / 60, never_stops, drop);
         controller.finger().set_pointer(live->state().tip_mm, true);
         touch.tick(1.0 / 60, [&](std::span<const std::uint8_t> frame) {
             protocol::LiveTexture texture;

@@ -28,7 +28,7 @@ struct Geometries {
     int crossing = 1;  // of ON,n,INTOF
 };
 
-std::unexpected<Error> refuse_form(const Statement& statement, const Report& report) {
+std::unexpected<Error> refuse_catia_form(const Statement& statement, const Report& report) {
     return report.refuse(statement.word, "a circle of CATIA in a form that is not known",
                          "write TLON,GOFWD/(CIRCLE/x,y,z,r),ON,(LINE/x,y,z,x,y,z)");
 }
@@ -61,7 +61,7 @@ Result<Geometries> geometries(const Statement& statement, const Report& report) 
         } else if (matches(item.text, "1") || matches(item.text, "2")) {
             out.crossing = item.text[0] - '0';
         } else {
-            return refuse_form(statement, report);
+            return refuse_catia_form(statement, report);
         }
         if (closes) inside = false;
     }
@@ -73,7 +73,7 @@ Result<Circle> read_base(const Geometry& from, std::optional<Vec3>& axis, const 
     const std::size_t count = from.numbers.items.size();
     const bool is_cylinder = matches(from.word, "CYLNDR");
     if ((!is_cylinder && !matches(from.word, "CIRCLE")) || (count != 7 && (is_cylinder || count != 4)))
-        return refuse_form(from.numbers, report);
+        return refuse_catia_form(from.numbers, report);
     const auto centre = path.read_point(from.numbers, 0);
     if (!centre) return std::unexpected(centre.error());
     const Item& last = from.numbers.items.back();
@@ -125,7 +125,7 @@ Result<Vec3> read_end(const Geometry& from, const Circle& circle, int n, const P
         if (!end) return std::unexpected(end.error());
         return frame.point(*end);
     }
-    if (!matches(from.word, "PLANE") || items.size() != 4) return refuse_form(from.numbers, report);
+    if (!matches(from.word, "PLANE") || items.size() != 4) return refuse_catia_form(from.numbers, report);
     const auto direction = path.read_direction(from.numbers, 0);
     if (!direction) return std::unexpected(direction.error());
     const auto distance = report.number(items[3], kLimits.coordinate, path.settings.unit_mm);
@@ -141,7 +141,7 @@ Result<CatiaCircle> read_catia_circle(const Statement& statement, Vec3 forward,
                                       const std::optional<Vec3>& surface, const Path& path, Report& report) {
     const auto parts = geometries(statement, report);
     if (!parts) return std::unexpected(parts.error());
-    if (parts->list.size() != 2) return refuse_form(statement, report);
+    if (parts->list.size() != 2) return refuse_catia_form(statement, report);
     std::optional<Vec3> axis;
     const auto base = read_base(parts->list[0], axis, path, report);
     if (!base) return std::unexpected(base.error());

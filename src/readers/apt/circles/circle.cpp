@@ -24,10 +24,6 @@ double distance_from_axis(const Circle& circle, Vec3 p) {
     return length(from_centre - dot(from_centre, circle.normal) * circle.normal);
 }
 
-std::string mm_text(double value) {
-    return short_decimal(value) + " mm";
-}
-
 // Returns the index of the first item equal to the word; the number of items if there is none.
 std::size_t find_word(const Statement& statement, std::string_view word) {
     std::size_t i = 0;

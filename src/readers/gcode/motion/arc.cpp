@@ -49,10 +49,6 @@ motion::Arc make_arc(const ArcEnds& ends, Vec3 centre, double turn_rad) {
     return arc;
 }
 
-std::string mm_text(double value) {
-    return short_decimal(value) + " mm";
-}
-
 }  // namespace
 
 Result<motion::Arc> arc_about_centre(const ArcEnds& ends, Vec3 centre_mm, double unit_mm) {

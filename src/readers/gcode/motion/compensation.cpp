@@ -15,11 +15,7 @@ namespace {
 
 // Directions that differ by less than this count as straight, rad.
 constexpr double kStraightRad = 1e-6;
-constexpr double kSamePointMm = 1e-7;
-
-std::string mm_text(double value) {
-    return short_decimal(value) + " mm";
-}
+constexpr double kSameEndMm = 1e-7;
 
 class Corner {
   public:
@@ -237,7 +233,7 @@ class Corner {
         Element arc{comp_.last.end, to, corner, turn};
         motion::Move move = programmed;
         move.end.tip_mm[w_] = move.start.tip_mm[w_];
-        if (distance(arc.start, arc.end) <= kSamePointMm && std::abs(turn) < 1) return {};
+        if (distance(arc.start, arc.end) <= kSameEndMm && std::abs(turn) < 1) return {};
         return give(along(arc, move));
     }
 

@@ -9,7 +9,7 @@ namespace tribo::readers::gcode {
 namespace {
 
 // Points closer than this count as one, mm.
-constexpr double kSamePointMm = 1e-7;
+constexpr double kSameCornerMm = 1e-7;
 
 Point operator+(Point a, Point b) {
     return {a.u + b.u, a.v + b.v};
@@ -37,7 +37,7 @@ Point unit(Point a) {
 // Returns a turn from 0 to a full turn, in the direction of `sign`. Nearly a full turn counts as 0.
 double turn_from(Point centre, Point a, Point b, double sign) {
     double turn = sign * turn_between(a - centre, b - centre);
-    const double least = -kSamePointMm / std::max(distance(a, centre), kSamePointMm);
+    const double least = -kSameCornerMm / std::max(distance(a, centre), kSameCornerMm);
     if (turn < least) turn += math::kTwoPi;
     return std::max(turn, 0.0);
 }
@@ -55,7 +55,7 @@ Crossings line_circle(const Element& line, Point centre, double radius) {
     const Point d = line.start_direction();
     const Point foot = line.start + dot(centre - line.start, d) * d;
     const double height = distance(foot, centre);
-    if (height > radius + kSamePointMm) return found;
+    if (height > radius + kSameCornerMm) return found;
     const double half = height < radius ? std::sqrt((radius - height) * (radius + height)) : 0;
     found.add(foot + half * d);
     found.add(foot - half * d);
@@ -65,10 +65,10 @@ Crossings line_circle(const Element& line, Point centre, double radius) {
 Crossings circle_circle(Point a, double radius_a, Point b, double radius_b) {
     Crossings found;
     const double apart = distance(a, b);
-    if (apart < kSamePointMm) return found;
+    if (apart < kSameCornerMm) return found;
     const double along = (apart * apart + radius_a * radius_a - radius_b * radius_b) / (2 * apart);
     const double square = radius_a * radius_a - along * along;
-    if (square < -2 * radius_a * kSamePointMm) return found;
+    if (square < -2 * radius_a * kSameCornerMm) return found;
     const double aside = square > 0 ? std::sqrt(square) : 0;
     const Point d = unit(b - a);
     found.add(a + along * d + aside * left_of(d));
@@ -103,7 +103,7 @@ double Element::length() const {
 
 double Element::curvature_per_mm() const {
     if (!is_arc()) return 0;
-    return (turn_rad > 0 ? 1 : -1) / std::max(radius_of(*this), kSamePointMm);
+    return (turn_rad > 0 ? 1 : -1) / std::max(radius_of(*this), kSameCornerMm);
 }
 
 Point Element::start_direction() const {
@@ -155,7 +155,7 @@ std::optional<Element> offset(const Element& element, double left_mm) {
     const double outwards = element.turn_rad > 0 ? -left_mm : left_mm;
     for (Point* p : {&moved.start, &moved.end}) {
         const double radius = distance(*p, element.centre);
-        if (!(radius + outwards > kSamePointMm)) return std::nullopt;
+        if (!(radius + outwards > kSameCornerMm)) return std::nullopt;
         *p = element.centre + ((radius + outwards) / radius) * (*p - element.centre);
     }
     return moved;
@@ -166,7 +166,7 @@ Crossings crossings(const Element& a, const Element& b) {
     const Crossings found = of_curves(a, b);
     const auto is_on = [](const Element& element, Point p) {
         const double along = element.after_start(p);
-        return along >= -kSamePointMm && along <= element.length() + kSamePointMm;
+        return along >= -kSameCornerMm && along <= element.length() + kSameCornerMm;
     };
     for (int i = 0; i < found.count; ++i) {
         const Point p = found.points[static_cast<std::size_t>(i)];
@@ -182,8 +182,8 @@ std::optional<Point> meeting(const Element& first, const Element& second) {
     for (int i = 0; i < found.count; ++i) {
         const Point p = found.points[static_cast<std::size_t>(i)];
         const double off_first = first.before_end(p), off_second = second.after_start(p);
-        if (off_first < -kSamePointMm || off_first > first.length() + kSamePointMm) continue;
-        if (off_second < -kSamePointMm || off_second > second.length() + kSamePointMm) continue;
+        if (off_first < -kSameCornerMm || off_first > first.length() + kSameCornerMm) continue;
+        if (off_second < -kSameCornerMm || off_second > second.length() + kSameCornerMm) continue;
         if (!best || off_first + off_second < least) {
             best = p;
             least = off_first + off_second;
@@ -197,7 +197,7 @@ std::optional<Element> arc_into(Point start, const Element& arc) {
     const Point normal = left_of(arc.end_direction());
     const Point back = start - arc.end;
     const double aside = dot(back, normal);
-    if (std::abs(aside) <= kSamePointMm) return std::nullopt;
+    if (std::abs(aside) <= kSameCornerMm) return std::nullopt;
     const double radius = dot(back, back) / (2 * aside);
     Element into;
     into.start = start;
@@ -232,7 +232,7 @@ std::optional<Element> rounded(Element& before, Element& next, double radius_mm)
 
 std::optional<Element> chamfered(Element& before, Element& next, double leg_mm) {
     const double shorter = std::min(before.length(), next.length());
-    if (before.is_arc() || next.is_arc() || leg_mm > shorter + kSamePointMm) return std::nullopt;
+    if (before.is_arc() || next.is_arc() || leg_mm > shorter + kSameCornerMm) return std::nullopt;
     const Point leave = before.end - leg_mm * before.end_direction();
     const Point enter = next.start + leg_mm * next.start_direction();
     before.set_end(leave);

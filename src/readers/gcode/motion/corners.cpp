@@ -13,7 +13,7 @@ namespace tribo::readers::gcode {
 namespace {
 
 // Directions that differ by less than this count as straight, rad.
-constexpr double kStraightRad = 1e-6;
+constexpr double kNoTurnRad = 1e-6;
 
 constexpr const char* kRemedy = "let the CAM system write the corner as a move of its own";
 
@@ -107,7 +107,7 @@ Result<void> join_at_corner(motion::Move next, State& state, Output& output,
     Element before = element_of(corner.move, corner.plane), after = element_of(next, corner.plane);
     const double turn = turn_between(before.end_direction(), after.start_direction());
     std::optional<Element> between;
-    if (std::abs(turn) >= kStraightRad) {
+    if (std::abs(turn) >= kNoTurnRad) {
         const double size = corner.size.mm;
         between = corner.size.is_chamfer ? chamfered(before, after, size) : rounded(before, after, size);
         if (!between) {

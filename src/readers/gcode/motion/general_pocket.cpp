@@ -11,7 +11,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-constexpr double kMostRings = 10'000;
+constexpr double kMostPocketRings = 10'000;
 // The way of a centre along the contour itself lies within it by this, mm.
 constexpr double kWithinMm = 1e-6;
 
@@ -156,7 +156,7 @@ Result<void> mill_pocket_of(State& state, const Flow& flow, Output& output) {
             milling.along_edge = true;
         }
         const auto rings = control::rings_of(area, milling);
-        if (!rings || rings->empty() || control::ring_count(*rings, milling) > kMostRings) {
+        if (!rings || rings->empty() || control::ring_count(*rings, milling) > kMostPocketRings) {
             return refuse(
                 pocket, output,
                 rings && rings->empty() ? "does not let the tool in" : "needs more than 10000 rings",

@@ -17,7 +17,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-constexpr char kAxisLetters[] = "XYZ";
+constexpr char kPathLetters[] = "XYZ";
 
 }  // namespace
 
@@ -170,7 +170,7 @@ Result<Target> target_of(Command& command, State& state, Output& output) {
             place += **word;
         } else if (known == Known::unstated) {
             if (output.first(Note::unstated_axes)) {
-                output.warn(command.line(), std::string("incremental move before ") + kAxisLetters[axis] +
+                output.warn(command.line(), std::string("incremental move before ") + kPathLetters[axis] +
                                                 " is stated: it is taken to start at the program's zero");
             }
             place = state.tip_mm[axis] = state.origin_mm()[axis];
@@ -178,7 +178,7 @@ Result<Target> target_of(Command& command, State& state, Output& output) {
             place += **word;
         }
         if (auto good =
-                in_range(kLimits.coordinate, place, command, *command.use(kAxisLetters[axis]), output);
+                in_range(kLimits.coordinate, place, command, *command.use(kPathLetters[axis]), output);
             !good) {
             return std::unexpected(good.error());
         }
@@ -193,14 +193,14 @@ Result<void> require_start(Command& command, State& state, Output& output) {
         Known& known = state.known[static_cast<std::size_t>(axis)];
         if (known == Known::lost) {
             return output.refuse(command.line(), column_of_any(command, "XYZIJKR"),
-                                 std::string("the feed move starts at an unknown ") + kAxisLetters[axis] +
+                                 std::string("the feed move starts at an unknown ") + kPathLetters[axis] +
                                      ", which line " + std::to_string(state.lost_line) +
                                      " moved to a place that only the machine knows",
-                                 std::string("add a rapid (G0) with ") + kAxisLetters[axis] + " before it");
+                                 std::string("add a rapid (G0) with ") + kPathLetters[axis] + " before it");
         }
         if (known == Known::yes) continue;
         if (!assumed.empty()) assumed += ", ";
-        assumed += kAxisLetters[axis];
+        assumed += kPathLetters[axis];
         assumed += '0';
         state.tip_mm[axis] = state.origin_mm()[axis];
         known = Known::yes;
@@ -284,7 +284,7 @@ void note_spindle(const Command& command, const State& state, Output& output) {
 
 Result<std::optional<double>> coordinate_mm(Command& command, int axis, State& state, Output& output) {
     if (axis == 1 && command.has('Y')) state.has_y = true;
-    const auto coordinate = length_mm(command, kAxisLetters[axis], state, output);
+    const auto coordinate = length_mm(command, kPathLetters[axis], state, output);
     if (coordinate && *coordinate) state.largest_mm = std::max(state.largest_mm, std::abs(**coordinate));
     return coordinate;
 }

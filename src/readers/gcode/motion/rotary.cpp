@@ -13,7 +13,7 @@
 namespace tribo::readers::gcode {
 namespace {
 
-constexpr char kLetters[] = "ABC";
+constexpr char kRotaryLetters[] = "ABC";
 
 void note_machine_needed(const Command& command, Output& output) {
     motion::Program& program = output.program;
@@ -47,10 +47,10 @@ std::optional<Switch> switch_in(const Command& command, const State& state) {
 
 // Returns the word of axis 0 to 2 (A B C); absent if the block has none.
 Result<std::optional<double>> word_rad(Command& command, int axis, const Output& output) {
-    const Word* word = command.use(kLetters[axis]);
+    const Word* word = command.use(kRotaryLetters[axis]);
     if (word == nullptr) return std::nullopt;
-    const std::string letter(1, kLetters[axis]);
-    if (!output.machine->has_axis(kLetters[axis])) {
+    const std::string letter(1, kRotaryLetters[axis]);
+    if (!output.machine->has_axis(kRotaryLetters[axis])) {
         return output.refuse(command.line(), word->column,
                              "the machine " + output.machine->machine().name + " has no axis " + letter,
                              "name the machine that the program is written for");
@@ -95,7 +95,7 @@ Result<void> read_vector(Command& command, State& state, Output& output) {
 void turn_home(Command& command, State& state, Output& output) {
     const bool all = !command.has_any("XYZABC");
     for (int axis = 0; axis < 3; ++axis) {
-        if (command.use(kLetters[axis]) == nullptr && !all) continue;
+        if (command.use(kRotaryLetters[axis]) == nullptr && !all) continue;
         if (state.rotary.now_rad[axis] != 0 && output.first(Note::rotary_home)) {
             output.warn(command.line(), code_text('G', command.g(GGroup::non_modal)->tenths) +
                                             ": the home of the rotary axes is taken to be their zero");

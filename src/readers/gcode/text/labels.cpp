@@ -11,7 +11,7 @@ namespace tribo::readers::gcode {
 namespace {
 
 constexpr std::size_t kMostLandmarks = 1'000'000;  // about 150 MB
-constexpr std::size_t kDeepestNesting = 1000;
+constexpr std::size_t kDeepestLoops = 1000;
 
 struct Spelled {
     std::string_view text;
@@ -145,7 +145,7 @@ Result<Labels> Labels::of(std::string_view bytes, const std::string& source_name
         }
         Landmark mark{std::move(word->label), word->keyword, lines.number(), at, lines};
         labels.add(std::move(mark));
-        if (labels.open_.size() > kDeepestNesting) {
+        if (labels.open_.size() > kDeepestLoops) {
             return cursor.refuse(start, "more than 1000 O-words are opened within each other",
                                  "close subroutines, branches and loops with endsub, endif, endwhile, ...");
         }

@@ -16,7 +16,7 @@ namespace {
 // Numbers of the parameters with the state of the control in LinuxCNC.
 constexpr int kFirstProbe = 5061, kLastProbe = 5070;
 constexpr int kPresetOn = 5210, kFirstPreset = 5211;
-constexpr int kActiveWork = 5220, kFirstWork = 5221, kLastWork = 5390, kWorkStep = 20;
+constexpr int kActiveWork = 5220, kFirstOrigin = 5221, kLastWork = 5390, kOriginStep = 20;
 constexpr int kWorkTurn = 9;  // after the nine axes of a work system
 constexpr int kInput = 5399;
 constexpr int kFirstState = 5400, kLastState = 5428;
@@ -27,7 +27,7 @@ std::string shown(int number) {
     return "#" + std::to_string(number);
 }
 
-int motion_code(const State& state) {
+int motion_parameter(const State& state) {
     switch (state.motion) {
         case MotionMode::rapid:
             return 0;
@@ -67,7 +67,7 @@ constexpr Shown kShown[] = {
     {"_inverse_time", [](const State& s) { return s.feed_mode == FeedMode::inverse_time ? 1.0 : 0.0; }},
     {"_line", [](const State& s) { return static_cast<double>(s.line); }},
     {"_metric", [](const State& s) { return s.unit_mm == 1 ? 1.0 : 0.0; }},
-    {"_motion_mode", [](const State& s) { return static_cast<double>(motion_code(s)); }},
+    {"_motion_mode", [](const State& s) { return static_cast<double>(motion_parameter(s)); }},
     {"_plane",
      [](const State& s) { return s.plane == Plane::xy   ? 170.0
                                  : s.plane == Plane::zx ? 180.0
@@ -142,9 +142,9 @@ Result<double> Parameters::get(int number) const {
         const int axis = number - kFirstPreset;
         return axis < 3 ? state_.preset_mm[axis] / state_.unit_mm : 0;
     }
-    if (number >= kFirstWork && number <= kLastWork && (number - kFirstWork) % kWorkStep <= kWorkTurn) {
-        const WorkSystem& work = state_.work[static_cast<std::size_t>((number - kFirstWork) / kWorkStep)];
-        const int axis = (number - kFirstWork) % kWorkStep;
+    if (number >= kFirstOrigin && number <= kLastWork && (number - kFirstOrigin) % kOriginStep <= kWorkTurn) {
+        const WorkSystem& work = state_.work[static_cast<std::size_t>((number - kFirstOrigin) / kOriginStep)];
+        const int axis = (number - kFirstOrigin) % kOriginStep;
         if (axis == kWorkTurn) return work.turn_deg;
         return axis < 3 ? work.origin_mm[axis] / state_.unit_mm : 0;
     }

@@ -11,7 +11,6 @@
 namespace tribo::readers {
 namespace {
 
-constexpr double kInch = 25.4;
 constexpr std::size_t kMostColumns = 2000;
 
 char separator_of(std::string_view header) {
@@ -107,7 +106,7 @@ LibraryTool tool_of(const CsvTools& row) {
     LibraryTool tool;
     tool.type = row.text("tool_type");
     tool.name = row.text("tool_description");
-    const double unit_mm = folded(row.text("tool_unit")).starts_with("IN") ? kInch : 1;
+    const double unit_mm = folded(row.text("tool_unit")).starts_with("IN") ? kMmPerInch : 1;
     if (const double number = row.number("tool_number", 1); number >= 1)
         tool.number = static_cast<int>(number);
     ToolSizes& sizes = tool.sizes;

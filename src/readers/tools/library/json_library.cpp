@@ -12,7 +12,6 @@
 namespace tribo::readers {
 namespace {
 
-constexpr double kInch = 25.4;
 constexpr std::size_t kMostHolderSteps = 100;  // as in a job
 
 // Reads numbers of the children of a node; 0 where they are absent.
@@ -82,7 +81,7 @@ void add_fusion_tool(const Document& document, const DocumentNode& entry, Librar
     tool.type = document.text(entry, "type");
     tool.name = document.text(entry, "description");
     if (tool.type == "holder") return;
-    const double unit_mm = folded(document.text(entry, "unit")).starts_with("IN") ? kInch : 1;
+    const double unit_mm = folded(document.text(entry, "unit")).starts_with("IN") ? kMmPerInch : 1;
     const Sizes geometry(document, document.child(entry, "geometry"), unit_mm);
     const Sizes post(document, document.child(entry, "post-process"), 1);
     const int number = post.count("number");
@@ -124,7 +123,7 @@ void add_fusion_tool(const Document& document, const DocumentNode& entry, Librar
     if (const DocumentNode* holder = document.child(entry, "holder")) {
         const bool is_inch = folded(document.text(*holder, "unit")).starts_with("IN");
         const bool has_unit = document.child(*holder, "unit") != nullptr;
-        tool.holder = holder_steps(document, holder, !has_unit ? unit_mm : is_inch ? kInch : 1);
+        tool.holder = holder_steps(document, holder, !has_unit ? unit_mm : is_inch ? kMmPerInch : 1);
     }
     tools.add(std::move(tool));
 }

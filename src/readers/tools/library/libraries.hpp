@@ -11,6 +11,8 @@
 
 namespace tribo::readers {
 
+inline constexpr double kMmPerInch = 25.4;
+
 Result<ToolTable> read_json_library(std::string_view bytes, const std::string& source_name);
 // DIN 4000 (the classes 81 and 82), and properties of ISO 13399 by their codes.
 Result<ToolTable> read_xml_library(std::string_view bytes, const std::string& source_name);

@@ -14,8 +14,6 @@ namespace {
 
 using Properties = std::map<std::string, std::string, std::less<>>;
 
-constexpr double kInch = 25.4;
-
 // Adds the properties below a node: <PropertyName>A1</PropertyName><Value>6</Value>, and elements with a
 // `code`.
 void collect(const Document& document, const DocumentNode& node, Properties& properties) {
@@ -108,7 +106,7 @@ void add_tool(const Document& document, const DocumentNode& node, LibraryTools& 
     }
     const std::string unit =
         folded(document.text(node, "@unit")) + folded(document.text(node, "@nativeUnits"));
-    if (!is_din) set_iso(values, unit.starts_with("IN") ? kInch : 1, tool);
+    if (!is_din) set_iso(values, unit.starts_with("IN") ? kMmPerInch : 1, tool);
     tools.add(std::move(tool));
 }
 
