@@ -23,7 +23,7 @@ dynamics::Mode stiff(const Vec3& direction, dynamics::ModeOn on = dynamics::Mode
     return {direction, 922, 0.03, 13'400, on};
 }
 
-MillSetup setup_of(const std::vector<dynamics::Mode>& modes, double helix_deg = 30) {
+MillSetup program_setup(const std::vector<dynamics::Mode>& modes, double helix_deg = 30) {
     MillSetup setup;
     setup.cutters = {{.diameter_mm = 10, .flutes = 2, .helix_deg = helix_deg, .length_mm = 20}};
     setup.coefficients = {600, 200, 0, 0, 0, 0};
@@ -35,8 +35,8 @@ MillSetup setup_of(const std::vector<dynamics::Mode>& modes, double helix_deg = 
 }
 
 // A slot, `depth_mm` deep, with x along `feed` across the axis.
-milling::CutRow row_of(double start_s, double end_s, double depth_mm, Vec3 feed = {1, 0, 0},
-                       Vec3 axis = {0, 0, 1}) {
+milling::CutRow program_row(double start_s, double end_s, double depth_mm, Vec3 feed = {1, 0, 0},
+                            Vec3 axis = {0, 0, 1}) {
     milling::CutRow row;
     row.line = 1;
     row.start_s = start_s;
@@ -51,7 +51,7 @@ milling::CutRow row_of(double start_s, double end_s, double depth_mm, Vec3 feed 
 
 std::vector<double> peaks(const std::vector<dynamics::Mode>& modes,
                           const std::vector<milling::CutRow>& rows) {
-    const MillSetup setup = setup_of(modes);
+    const MillSetup setup = program_setup(modes);
     RowSimulation simulation(setup);
     std::vector<double> largest;
     for (const milling::CutRow& row : rows) largest.push_back(simulation.run(row).value());
@@ -61,7 +61,7 @@ std::vector<double> peaks(const std::vector<dynamics::Mode>& modes,
 // However the program cuts its path into rows, the tool vibrates as in one steady cut.
 TEST(RowSimulation, of_many_rows_is_that_of_one_cut) {
     const std::vector<dynamics::Mode> modes{stiff({1, 0, 0}), stiff({0.3, 1, 0})};
-    const MillSetup setup = setup_of(modes);
+    const MillSetup setup = program_setup(modes);
     SteadyCut cut;
     cut.cutter = setup.cutters[0];
     cut.coefficients = setup.coefficients;
@@ -77,7 +77,7 @@ TEST(RowSimulation, of_many_rows_is_that_of_one_cut) {
     std::vector<milling::CutRow> rows;
     for (double t = 0; t < all_s;) {
         const double end = std::min(all_s, t + seconds(random));
-        rows.push_back(row_of(t, end, 0.6));
+        rows.push_back(program_row(t, end, 0.6));
         t = end;
     }
     ASSERT_GT(rows.size(), 20u);
@@ -89,7 +89,7 @@ TEST(RowSimulation, knows_no_direction_of_the_stock) {
     const auto rows = [](const Vec3& feed, const Vec3& axis) {
         std::vector<milling::CutRow> all;
         for (int n = 0; n < 20; ++n)
-            all.push_back(row_of(0.01 * n, 0.01 * (n + 1), 0.4 + 0.02 * n, feed, axis));
+            all.push_back(program_row(0.01 * n, 0.01 * (n + 1), 0.4 + 0.02 * n, feed, axis));
         return all;
     };
     const std::vector<double> known =
@@ -116,18 +116,18 @@ TEST(RowSimulation, knows_no_direction_of_the_stock) {
 TEST(RowSimulation, starts_again_after_a_long_gap_and_dies_out_in_a_short_one) {
     const std::vector<dynamics::Mode> modes{soft({1, 0, 0})};
     const double turn_s = 60 / kRpm;  // gaps of whole turns: the same phase
-    const std::vector<double> p =
-        peaks(modes, {row_of(0, 4 * turn_s, 0.5), row_of(4 * turn_s, 8 * turn_s, 0.5),
-                      row_of(208 * turn_s, 212 * turn_s, 0.5), row_of(212 * turn_s, 216 * turn_s, 0.5)});
+    const std::vector<double> p = peaks(
+        modes, {program_row(0, 4 * turn_s, 0.5), program_row(4 * turn_s, 8 * turn_s, 0.5),
+                program_row(208 * turn_s, 212 * turn_s, 0.5), program_row(212 * turn_s, 216 * turn_s, 0.5)});
     EXPECT_NEAR(p[0], p[2], 1e-7);
     EXPECT_NEAR(p[1], p[3], 1e-7);
 
     // Four turns in air: what is left of a vibration is its decay.
-    const MillSetup setup = setup_of(modes);
+    const MillSetup setup = program_setup(modes);
     RowSimulation simulation(setup);
-    (void)simulation.run(row_of(0, 8 * turn_s, 1));
-    const double before = *simulation.run(row_of(8 * turn_s, 8 * turn_s + 1e-4, 1));
-    milling::CutRow air = row_of(12 * turn_s, 12 * turn_s + 1e-4, 1);
+    (void)simulation.run(program_row(0, 8 * turn_s, 1));
+    const double before = *simulation.run(program_row(8 * turn_s, 8 * turn_s + 1e-4, 1));
+    milling::CutRow air = program_row(12 * turn_s, 12 * turn_s + 1e-4, 1);
     air.engagement.bands.clear();
     const double after = *simulation.run(air);
     const double decay = std::exp(-0.011 * 2 * kPi * 922 * 4 * turn_s);
@@ -136,19 +136,19 @@ TEST(RowSimulation, starts_again_after_a_long_gap_and_dies_out_in_a_short_one) {
 }
 
 TEST(RowSimulation, holds_what_moves_farther_than_the_equations_hold) {
-    MillSetup setup = setup_of({soft({1, 0, 0})});
+    MillSetup setup = program_setup({soft({1, 0, 0})});
     RowSimulation shallow(setup);
-    (void)shallow.run(row_of(0, 0.1, 0.2));
+    (void)shallow.run(program_row(0, 0.1, 0.2));
     EXPECT_FALSE(shallow.was_held());
     setup.modes_of_cutter[0][0].stiffness_n_per_mm = 20;
     RowSimulation loose(setup);
-    EXPECT_DOUBLE_EQ(*loose.run(row_of(0, 0.5, 10)), 1);  // a tenth of the diameter
+    EXPECT_DOUBLE_EQ(*loose.run(program_row(0, 0.5, 10)), 1);  // a tenth of the diameter
     EXPECT_TRUE(loose.was_held());
 }
 
 // Of two cutters each bends as its own modes say.
 TEST(ProgramChatter, knows_the_modes_of_each_cutter) {
-    MillSetup setup = setup_of({soft({1, 0, 0})});
+    MillSetup setup = program_setup({soft({1, 0, 0})});
     setup.cutters.push_back(setup.cutters[0]);
     setup.modes_of_cutter.push_back({stiff({1, 0, 0})});
     std::vector<RowChatter> found;
@@ -160,7 +160,8 @@ TEST(ProgramChatter, knows_the_modes_of_each_cutter) {
                                found.push_back(of_row);
                            });
     for (std::size_t n = 0; n < 2; ++n) {
-        milling::CutRow row = row_of(0.1 * static_cast<double>(n), 0.1 * static_cast<double>(n + 1), 0.2);
+        milling::CutRow row =
+            program_row(0.1 * static_cast<double>(n), 0.1 * static_cast<double>(n + 1), 0.2);
         row.cutter = n;
         chatter.add(row, {});
     }
@@ -182,13 +183,13 @@ TEST(ProgramChatter, knows_the_modes_of_each_cutter) {
 // does not matter.
 TEST(RowSimulation, follows_a_spindle_whose_speed_varies) {
     constexpr double kSlowRpm = 1500, kDepthMm = 0.45, kAllS = 1.5;
-    MillSetup setup = setup_of({soft({1, 0, 0})}, 0);
+    MillSetup setup = program_setup({soft({1, 0, 0})}, 0);
     setup.rpm_of_move = {kSlowRpm};
     const auto largest_late = [&](int rows) {
         RowSimulation simulation(setup);
         double largest = 0;
         for (int n = 0; n < rows; ++n) {
-            milling::CutRow row = row_of(kAllS * n / rows, kAllS * (n + 1) / rows, kDepthMm);
+            milling::CutRow row = program_row(kAllS * n / rows, kAllS * (n + 1) / rows, kDepthMm);
             row.spindle_rpm = kSlowRpm;
             const double peak = simulation.run(row).value();
             if (2 * n >= rows) largest = std::max(largest, peak);
@@ -207,7 +208,7 @@ TEST(RowSimulation, follows_a_spindle_whose_speed_varies) {
 // Rows of all kinds come out in order, with what is missing counted.
 TEST(ProgramChatter, gives_every_row_on_and_says_what_is_missing) {
     const std::vector<dynamics::Mode> modes{soft({1, 0, 0})};
-    MillSetup setup = setup_of(modes, 0);
+    MillSetup setup = program_setup(modes, 0);
     constexpr int kRows = 1300;  // more than two batches
     std::vector<int> lines;
     std::vector<double> multipliers, displacements;
@@ -222,7 +223,7 @@ TEST(ProgramChatter, gives_every_row_on_and_says_what_is_missing) {
     };
     ProgramChatter chatter(setup, {}, backwards, sink);
     for (int n = 0; n < kRows; ++n) {
-        milling::CutRow row = row_of(0.005 * n, 0.005 * (n + 1), n < 650 ? 0.2 : 1);
+        milling::CutRow row = program_row(0.005 * n, 0.005 * (n + 1), n < 650 ? 0.2 : 1);
         row.line = 1 + n / 10;
         if (n == 5) row.engagement.bands.clear();
         if (n == 6) row.spindle_rpm = 0.01;

@@ -11,7 +11,7 @@
 namespace tribo::session {
 namespace {
 
-Result<MillSetup> slot() {
+Result<MillSetup> controlled_slot() {
     MillSetup s =
         block_setup({{0, 0, -8}, {40, 20, 0}}, {.diameter_mm = 8, .helix_deg = 35, .length_mm = 20}, 1);
     add_cut(s, straight_cut({-5, 10, -2}, {45, 10, -2}, 750));
@@ -24,7 +24,7 @@ class Controlled : public testing::Test {
     double helix_deg = 35;
     std::string material = "al7075-t6";
     Result<LiveInput> read_files() const {
-        MillSetup setup = *slot();
+        MillSetup setup = *controlled_slot();
         setup.cutters.front().helix_deg = helix_deg;
         return LiveInput(std::move(setup), {.material = material});
     }
