@@ -100,7 +100,7 @@ std::string row(const std::string& name, const std::array<std::string, 3>& cells
     return html + "</tr>\n";
 }
 
-std::string figures(const noise::VoiceQuality& q) {
+std::string figures_of(const noise::VoiceQuality& q) {
     const auto three = [](const noise::Trio& t, int decimals) {
         return std::array<std::string, 3>{fixed(t.original, decimals), fixed(t.gaussian, decimals),
                                           fixed(t.voice, decimals)};
@@ -139,7 +139,7 @@ std::string section(const ReportedVoice& v) {
         "<figcaption>Modulation spectrum: how strongly the envelope fluctuates, the slow level of the hand "
         "apart, dB, over "
         "Hz.</figcaption></figure></div>\n" +
-        figures(q) + "<div class=\"pair\"><div>" + player("Recording", q.original, q.sample_rate_hz) +
+        figures_of(q) + "<div class=\"pair\"><div>" + player("Recording", q.original, q.sample_rate_hz) +
         player("Voice", q.voice, q.sample_rate_hz) + "</div><div>" +
         player("Filter and white noise alone", q.gaussian, q.sample_rate_hz) + "</div></div>\n";
     return html + "</section>\n";

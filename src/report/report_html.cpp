@@ -26,7 +26,7 @@ constexpr int kSetDigits = 6;       // of feeds and speeds, which the program se
 constexpr double kGapShare = 0.5;   // of the duration of a row; a longer pause is a gap between cuts
 
 // Rounds to significant digits, without an exponent for numbers of usual size.
-std::string number(double value, int digits) {
+std::string json_digits(double value, int digits) {
     std::array<char, 40> text = {};
     std::snprintf(text.data(), text.size(), "%.*g", digits, value);
     const double size = std::abs(value);
@@ -223,7 +223,7 @@ std::string array_of(const Items& items, int digits, const Value& value) {
     std::string text = "[";
     for (const auto& item : items) {
         const double v = static_cast<double>(value(item));
-        text += number(std::isfinite(v) ? v : 0, digits);
+        text += json_digits(std::isfinite(v) ? v : 0, digits);
         text += ',';
     }
     if (text.back() == ',') text.pop_back();
@@ -267,8 +267,8 @@ std::string rows_json(const std::vector<ReportRow>& rows, bool chatter) {
 }
 
 std::string turn_json(const ReportTurn& turn) {
-    std::string json = "{\"t\":" + number(turn.t_s, 6) + ",\"line\":" + std::to_string(turn.line) +
-                       ",\"rpm\":" + number(turn.rpm, 6);
+    std::string json = "{\"t\":" + json_digits(turn.t_s, 6) + ",\"line\":" + std::to_string(turn.line) +
+                       ",\"rpm\":" + json_digits(turn.rpm, 6);
     json += ",\"x\":" + array_of(turn.force_n, 4, [](Vec3 f) { return f.x; });
     json += ",\"y\":" + array_of(turn.force_n, 4, [](Vec3 f) { return f.y; });
     json += ",\"z\":" + array_of(turn.force_n, 4, [](Vec3 f) { return f.z; });
@@ -278,22 +278,22 @@ std::string turn_json(const ReportTurn& turn) {
 }
 
 std::string vibration_json(const ReportChatter& chatter) {
-    std::string json =
-        "{\"label\":" + files::dump(files::Json(chatter.label)) + ",\"rate\":" + number(chatter.rate_hz, 8);
+    std::string json = "{\"label\":" + files::dump(files::Json(chatter.label)) +
+                       ",\"rate\":" + json_digits(chatter.rate_hz, 8);
     json += ",\"x\":" + array_of(chatter.displacement_mm, 4, [](const auto& mm) { return mm.first; });
     json += ",\"y\":" + array_of(chatter.displacement_mm, 4, [](const auto& mm) { return mm.second; });
     return json + "}";
 }
 
 std::string sound_json(const ReportSound& sound) {
-    std::string json = "\"envelope\":{\"seconds\":" + number(sound.seconds, 8) +
-                       ",\"heard\":" + number(sound.heard_from_s, 8);
+    std::string json = "\"envelope\":{\"seconds\":" + json_digits(sound.seconds, 8) +
+                       ",\"heard\":" + json_digits(sound.heard_from_s, 8);
     json += ",\"low\":" + array_of(sound.envelope_pascal, 3, [](const auto& step) { return step.first; });
     json += ",\"high\":" + array_of(sound.envelope_pascal, 3, [](const auto& step) { return step.second; });
     json += "},\"waves\":[";
     for (const ReportWave& wave : sound.waves) {
         json += "{\"label\":" + files::dump(files::Json(wave.label)) +
-                ",\"rate\":" + number(wave.rate_hz, 8) +
+                ",\"rate\":" + json_digits(wave.rate_hz, 8) +
                 ",\"samples\":" + array_of(wave.pascal, 4, [](float p) { return p; }) + "},";
     }
     if (json.back() == ',') json.pop_back();

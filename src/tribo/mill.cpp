@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kMegabyte = 1e6;
 
-Result<void> check(const MillOptions& options) {
+Result<void> check_mill(const MillOptions& options) {
     if (options.cell_mm && !kLimits.resolution.range.contains(*options.cell_mm))
         return fail("cell_mm is out of range", range_remedy(kLimits.resolution));
     if (options.until_s && !kLimits.until.range.contains(*options.until_s))
@@ -63,7 +63,7 @@ Mill& Mill::operator=(Mill&&) noexcept = default;
 Mill::~Mill() = default;
 
 FileResult<Mill> Mill::open(const std::string& file, const MillOptions& options) {
-    if (auto good = check(options); !good) return std::unexpected(FileFailure(good.error()));
+    if (auto good = check_mill(options); !good) return std::unexpected(FileFailure(good.error()));
     const job::LoadOptions limits =
         files::machine_limits(static_cast<std::uint64_t>(options.memory_mb.value_or(0) * kMegabyte));
     auto loaded = job::load_job(files::DiskSource(), file, limits);

@@ -15,7 +15,7 @@ namespace {
 constexpr int kLeastSizePx = 16;
 constexpr double kLeastRateHz = 1000, kMostRateHz = 192000;
 
-Result<void> check(const TouchOptions& options) {
+Result<void> check_touch(const TouchOptions& options) {
     if (options.size_px < kLeastSizePx || options.size_px > elastic::kMostNodesPerSide)
         return fail("size_px is out of range", "give 16 to 4096");
     if (!(options.sample_rate_hz >= kLeastRateHz && options.sample_rate_hz <= kMostRateHz))
@@ -37,7 +37,7 @@ TouchMaterial& TouchMaterial::operator=(TouchMaterial&&) noexcept = default;
 TouchMaterial::~TouchMaterial() = default;
 
 FileResult<TouchMaterial> TouchMaterial::open(const std::string& file, const TouchOptions& options) {
-    if (auto good = check(options); !good) return std::unexpected(FileFailure(good.error()));
+    if (auto good = check_touch(options); !good) return std::unexpected(FileFailure(good.error()));
     auto touch = read_touch_image(file, options.size_px);
     if (!touch) return std::unexpected(touch.error());
     elastic::Sheet sheet(touch->sheet_size());

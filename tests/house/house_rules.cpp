@@ -184,4 +184,23 @@ std::vector<std::string> form_complaints(const std::string& path, std::string_vi
     return complaints;
 }
 
+std::set<std::string> helpers_of(std::string_view text) {
+    static const std::regex definition(R"(^[A-Za-z_][\w:<>,&*\s]*?[\s&*](\w+)\(.*)");
+    static const std::regex other(
+        R"(^(return|if|for|else|using|namespace|typedef|static_assert|extern)\b.*)");
+    std::set<std::string> names;
+    bool is_inside = false;
+    for (const Line& line : lines_of(text)) {
+        std::smatch match;
+        if (line.text == "namespace {") is_inside = true;
+        if (line.text == "}  // namespace") is_inside = false;
+        const bool may_define =
+            is_inside && !line.text.starts_with(' ') && line.text.find('(') != std::string::npos;
+        if (may_define && !std::regex_match(line.text, other) &&
+            std::regex_match(line.text, match, definition))
+            names.insert(match[1]);
+    }
+    return names;
+}
+
 }  // namespace tribo::house

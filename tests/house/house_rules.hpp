@@ -25,4 +25,8 @@ std::vector<std::string> include_complaints(const std::string& path, std::string
 std::vector<std::string> same_bits_complaints(const std::string& path, std::string_view text);
 std::vector<std::string> form_complaints(const std::string& path, std::string_view text);
 
+// The functions of the unnamed namespace, each once. Neighbours are compiled as one source (CONTRIBUTING.md),
+// so one that has the name of a neighbour's may be taken for it.
+std::set<std::string> helpers_of(std::string_view text);
+
 }  // namespace tribo::house

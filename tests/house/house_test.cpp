@@ -53,6 +53,22 @@ TEST(House, sources_keep_the_form) {
     expect_no_complaints(form_complaints);
 }
 
+TEST(House, helpers_of_neighbours_have_names_of_their_own) {
+    // The same kernel twice; sources that are compiled alone.
+    static const std::regex alone(R"(.*_(sse2|v3)\.cpp|.*/src/(wasm|devices)/.*)");
+    std::map<fs::path, std::map<std::string, std::string>> folders;  // the source of each name
+    for (const auto& entry : fs::recursive_directory_iterator(kRoot / "src")) {
+        const std::string path = entry.path().generic_string();
+        if (entry.path().extension() != ".cpp" || std::regex_match(path, alone)) continue;
+        for (const std::string& name : helpers_of(read(entry.path()))) {
+            const auto [first, is_new] = folders[entry.path().parent_path()].emplace(name, path);
+            EXPECT_TRUE(is_new) << name << " stands in " << first->second << " and in " << path
+                                << ": write it once, or name it by what it is for";
+        }
+    }
+    EXPECT_GT(folders.size(), 40u);
+}
+
 TEST(House, the_table_of_the_readme_is_the_one_that_is_checked) {
     const std::string readme = read(kRoot / "README.md");
     std::size_t at = 0;
@@ -208,6 +224,14 @@ TEST(HouseRules, what_differs_between_systems_is_found_in_hashed_rooms_alone) {
     for (const char* code : {"math::sin(x)", "std::sqrt(x)", "std::abs(x)", "// std::sin(x) differs",
                              "retry(x)", "fail(\"bad\", \"try another\")", "'\"', x // catch", "std::logic"})
         EXPECT_EQ(same_bits_complaints("src/milling/a.cpp", code).size(), 0u) << code;
+}
+
+TEST(HouseRules, functions_of_the_unnamed_namespace_are_helpers) {
+    const std::set<std::string> found = helpers_of(
+        "int out() {\n}\nnamespace {\nint a(int x) {\n    return b(x);\n}\ntemplate <class "
+        "T>\nstd::vector<T>& c() {\n"
+        "}  // namespace\nvoid d() {\n");
+    EXPECT_EQ(found, (std::set<std::string>{"a", "c"}));
 }
 
 TEST(HouseRules, sources_without_licence_guard_or_end_are_found) {

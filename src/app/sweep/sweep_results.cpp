@@ -16,7 +16,7 @@
 namespace tribo::app {
 namespace {
 
-std::string text_of(const sweep::Value& value) {
+std::string cell_text(const sweep::Value& value) {
     if (const double* number = std::get_if<double>(&value)) return format_decimal(*number);
     if (const bool* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
     return std::get<std::string>(value);
@@ -73,7 +73,7 @@ class CaseDatabase {
             if (const double* real = std::get_if<double>(&value)) {
                 ::sqlite3_bind_double(insert_, ++column, *real);
             } else {
-                bind(++column, text_of(value));
+                bind(++column, cell_text(value));
             }
         }
         for (const std::string& name : outputs) {
@@ -138,7 +138,7 @@ std::string words_of(const sweep::Axis& axis) {
     constexpr std::size_t kShown = 12;
     std::string words;
     for (std::size_t n = 0; n < std::min(axis.values.size(), kShown); ++n)
-        words += (n > 0 ? ", " : "") + text_of(axis.values[n]);
+        words += (n > 0 ? ", " : "") + cell_text(axis.values[n]);
     return axis.values.size() > kShown ? words + " ... (" + std::to_string(axis.values.size()) + ")" : words;
 }
 
@@ -171,7 +171,7 @@ FileResult<SweepCounts> write_results(SweepCases& cases, const FinishedCases& fi
         if (!*result) continue;
         const std::vector<sweep::Value> values = plan.values(n);
         line = std::to_string(n);
-        for (const sweep::Value& value : values) line += "," + csv_field(text_of(value));
+        for (const sweep::Value& value : values) line += "," + csv_field(cell_text(value));
         for (const std::string& name : outputs) {
             const double* value = find(**result, name);
             line += "," + (value != nullptr ? format_decimal(*value) : std::string());

@@ -66,7 +66,7 @@ double quantized(float sample, int bits, double dither_steps) {
                       scale - 1);
 }
 
-std::unexpected<FileFailure> refused(const std::string& path, std::string cause, std::string remedy) {
+std::unexpected<FileFailure> refused_file(const std::string& path, std::string cause, std::string remedy) {
     return std::unexpected(FileFailure({path, 0, 0, std::move(cause), std::move(remedy)}));
 }
 
@@ -115,14 +115,15 @@ WavWriter::~WavWriter() = default;
 FileResult<WavWriter> WavWriter::create(const std::string& path, const WavFormat& format,
                                         std::int64_t longest_frames) {
     if (format.bits != 16 && format.bits != 24 && format.bits != 32) {
-        return refused(path, std::to_string(format.bits) + " bits per sample", "try bits = 16, 24 or 32");
+        return refused_file(path, std::to_string(format.bits) + " bits per sample",
+                            "try bits = 16, 24 or 32");
     }
     if (format.sample_rate_hz < 8000 || format.sample_rate_hz > 192000) {
-        return refused(path, "a sample rate of " + std::to_string(format.sample_rate_hz) + " Hz",
-                       "try 48000 or 44100");
+        return refused_file(path, "a sample rate of " + std::to_string(format.sample_rate_hz) + " Hz",
+                            "try 48000 or 44100");
     }
     if (format.channels < 1 || format.channels > 8) {
-        return refused(path, std::to_string(format.channels) + " channels", "try 2");
+        return refused_file(path, std::to_string(format.channels) + " channels", "try 2");
     }
     auto state = std::make_unique<State>();
     state->path = path;
@@ -193,11 +194,11 @@ FileResult<void> WavWriter::finish() {
     State& s = *state_;
     const int closed = ::sf_close(std::exchange(s.container, nullptr));  // writes the lengths
     if (s.too_long) {
-        return refused(s.path,
-                       "the sound is longer than the " +
-                           std::to_string(s.longest_frames / s.format.sample_rate_hz) +
-                           " s that such a file holds",
-                       "try --until, fewer bits or a lower --sample-rate");
+        return refused_file(s.path,
+                            "the sound is longer than the " +
+                                std::to_string(s.longest_frames / s.format.sample_rate_hz) +
+                                " s that such a file holds",
+                            "try --until, fewer bits or a lower --sample-rate");
     }
     if (s.file.error_number == 0 && (s.broken || closed != 0)) s.file.error_number = EIO;
     if (s.file.error_number != 0) return system_failure(s.path, "write", s.file.error_number);

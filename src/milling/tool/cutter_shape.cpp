@@ -17,7 +17,8 @@ const double kUsualLengthMm = Cutter().length_mm;
 // A normal may hang back, or a height fall, by this much: it is rounding of a drawing.
 constexpr double kSlack = 1e-6;
 
-std::unexpected<Error> refuse(std::string_view key, const std::string& cause, const std::string& remedy) {
+std::unexpected<Error> refuse_shape(std::string_view key, const std::string& cause,
+                                    const std::string& remedy) {
     return fail("cutter " + std::string(key) + " " + cause, remedy);
 }
 
@@ -27,8 +28,8 @@ std::string_view word(const Cutter& c) {
 
 Result<void> require(const Cutter& c, std::string_view key, double value, const char* example) {
     if (value > 0) return {};
-    return refuse(key, "of a " + std::string(word(c)) + " is missing",
-                  "add " + std::string(key) + " = " + example);
+    return refuse_shape(key, "of a " + std::string(word(c)) + " is missing",
+                        "add " + std::string(key) + " = " + example);
 }
 
 // Returns the bulge of the arc over which the normal turns from a to b, by less than half a turn.
@@ -59,32 +60,33 @@ Result<void> make_cone(Cutter& c, double angle_rad) {
         const double length = c.length_mm > 0 ? c.length_mm : kUsualLengthMm;
         const double centre = c.radius_mm() - corner * normal.r - (length - corner * (1 + normal.z)) * slope;
         if (!(centre >= 0))
-            return refuse("taper_deg",
-                          "is too steep: " + plain_number(length) + " mm below its diameter of " +
-                              plain_number(c.diameter_mm) + " mm nothing is left of the tip",
-                          "give tip_mm, the diameter of the tip, or a shorter length_mm");
+            return refuse_shape("taper_deg",
+                                "is too steep: " + plain_number(length) + " mm below its diameter of " +
+                                    plain_number(c.diameter_mm) + " mm nothing is left of the tip",
+                                "give tip_mm, the diameter of the tip, or a shorter length_mm");
         c.tip_mm = 2 * (centre + corner);
     }
     if (c.tip_mm == 0) c.tip_mm = 2 * corner;
     const double centre = 0.5 * c.tip_mm - corner;
     if (!(centre >= 0))
-        return refuse("corner_mm", "is larger than half of the tip of " + plain_number(c.tip_mm) + " mm",
-                      "half of tip_mm makes a ball");
+        return refuse_shape("corner_mm",
+                            "is larger than half of the tip of " + plain_number(c.tip_mm) + " mm",
+                            "half of tip_mm makes a ball");
     const PlanePoint cone{centre + corner * normal.r, corner * (1 + normal.z)};
     if (!(c.tip_mm < c.diameter_mm && cone.r < c.radius_mm()))
-        return refuse("tip_mm",
-                      "of " + plain_number(c.tip_mm) + " mm leaves no cone below a diameter of " +
-                          plain_number(c.diameter_mm) + " mm",
-                      "diameter_mm is the largest diameter that cuts, tip_mm that of the tip");
+        return refuse_shape("tip_mm",
+                            "of " + plain_number(c.tip_mm) + " mm leaves no cone below a diameter of " +
+                                plain_number(c.diameter_mm) + " mm",
+                            "diameter_mm is the largest diameter that cuts, tip_mm that of the tip");
     add(c, {centre, 0}, corner > 0 ? bulge_between(kDown, normal) : 0);
     if (corner > 0) add(c, cone);
     const double top = cone.z + (c.radius_mm() - cone.r) / slope;
     if (c.length_mm == 0) c.length_mm = std::max(kUsualLengthMm, top);
     if (top > c.length_mm * (1 + kSlack))
-        return refuse("length_mm",
-                      "ends below the diameter: the cone is " + plain_number(c.diameter_mm) +
-                          " mm wide only " + plain_number(top) + " mm above the tip",
-                      "give length_mm of the whole edge, or the diameter_mm that it really ends with");
+        return refuse_shape("length_mm",
+                            "ends below the diameter: the cone is " + plain_number(c.diameter_mm) +
+                                " mm wide only " + plain_number(top) + " mm above the tip",
+                            "give length_mm of the whole edge, or the diameter_mm that it really ends with");
     add(c, {c.radius_mm(), std::min(top, c.length_mm)});
     return {};
 }
@@ -96,11 +98,11 @@ Result<void> make_dovetail(Cutter& c) {
     const PlanePoint up = normal_of_cone(c.taper_deg * math::kRadPerDeg), normal{up.r, -up.z};
     const double corner = c.corner_mm, centre = c.radius_mm() - corner;
     if (!(centre >= 0))
-        return refuse("corner_mm", "is larger than the radius", "give the radius of its corner");
+        return refuse_shape("corner_mm", "is larger than the radius", "give the radius of its corner");
     const PlanePoint cone{centre + corner * normal.r, corner * (1 + normal.z)};
     const double top = cone.r - (c.height_mm - cone.z) * normal.z / normal.r;
     if (!(c.height_mm > cone.z && top > 0))
-        return refuse(
+        return refuse_shape(
             "height_mm",
             "does not fit the angle: the side would end at a radius of " + plain_number(top) + " mm",
             "a dovetail narrows to its neck: give a lower height_mm or a smaller taper_deg");
@@ -114,8 +116,9 @@ Result<void> make_lens(Cutter& c) {
     if (auto done = require(c, "side_mm", c.side_mm, "20, the radius of its bottom"); !done) return done;
     const double corner = c.corner_mm, inner = c.radius_mm() - corner, arc = c.side_mm - corner;
     if (!(inner >= 0 && arc > inner))
-        return refuse("side_mm", "of a lens must be more than half of its diameter, and its corner less",
-                      "give the radius of the arc about the axis");
+        return refuse_shape("side_mm",
+                            "of a lens must be more than half of its diameter, and its corner less",
+                            "give the radius of the arc about the axis");
     const PlanePoint centre{inner, c.side_mm - std::sqrt(arc * arc - inner * inner)};  // of the corner
     const PlanePoint normal = (1 / arc) * (centre - PlanePoint{0, c.side_mm});
     add(c, {0, 0}, bulge_between(kDown, normal));
@@ -130,16 +133,16 @@ Result<void> make_barrel(Cutter& c) {
     if (c.height_mm == 0) c.height_mm = 0.5 * c.length_mm;
     const double corner = c.corner_mm, side = c.side_mm, above = c.length_mm - c.height_mm;
     if (!(above >= 0))
-        return refuse("height_mm", "is above the end of the edges",
-                      "give the height of the largest diameter");
+        return refuse_shape("height_mm", "is above the end of the edges",
+                            "give the height of the largest diameter");
     const PlanePoint centre{c.radius_mm() - side, c.height_mm};  // of the side
     // The corner touches the side's circle from within.
     const double reach = side - corner, low = corner - c.height_mm;
     const double bottom = reach > 0 ? centre.r + std::sqrt(std::max(reach * reach - low * low, 0.0)) : -1;
     const double top = centre.r + std::sqrt(std::max(side * side - above * above, 0.0));
     if (!(reach > std::abs(low) && low <= 0 && bottom >= 0 && side >= above && top > 0))
-        return refuse("side_mm", "of the barrel does not reach from the bottom to the end of its edges",
-                      "give a larger side_mm, a shorter length_mm, or a smaller corner_mm");
+        return refuse_shape("side_mm", "of the barrel does not reach from the bottom to the end of its edges",
+                            "give a larger side_mm, a shorter length_mm, or a smaller corner_mm");
     const PlanePoint normal = (1 / reach) * (PlanePoint{bottom, corner} - centre);
     const PlanePoint end = (1 / side) * (PlanePoint{top, c.length_mm} - centre);
     add(c, {bottom, 0}, corner > 0 ? bulge_between(kDown, normal) : bulge_between(normal, end));
@@ -152,7 +155,8 @@ Result<void> require_neck(const Cutter& c) {
     if (auto done = require(c, "neck_mm", c.neck_mm, "3, the diameter at which its edges end"); !done)
         return done;
     if (c.neck_mm < c.diameter_mm) return {};
-    return refuse("neck_mm", "is not below the diameter", "give the diameter of the neck above the edges");
+    return refuse_shape("neck_mm", "is not below the diameter",
+                        "give the diameter of the neck above the edges");
 }
 
 Result<void> make_lollipop(Cutter& c) {
@@ -219,19 +223,19 @@ void fill_usual(Cutter& c) {
 Result<void> check_sizes(const Cutter& c) {
     const auto check_one = [&](std::string_view key, double value, const Limit& limit) -> Result<void> {
         if (value == 0 || limit.range.contains(value)) return {};
-        return refuse(key, "is " + plain_number(value), range_remedy(limit));
+        return refuse_shape(key, "is " + plain_number(value), range_remedy(limit));
     };
     for (const ShapeKey& key : kShapeKeys)
         if (auto done = check_one(key.name, c.*key.value, key.limit); !done) return done;
     if (auto done = check_one("length_mm", c.length_mm, kLimits.cutting_length); !done) return done;
     if (!kLimits.cutter_diameter.range.contains(c.diameter_mm))
-        return refuse("diameter_mm", "is " + plain_number(c.diameter_mm),
-                      range_remedy(kLimits.cutter_diameter));
+        return refuse_shape("diameter_mm", "is " + plain_number(c.diameter_mm),
+                            range_remedy(kLimits.cutter_diameter));
     return {};
 }
 
 std::unexpected<Error> refuse_vertex(std::size_t n, const std::string& cause, const std::string& remedy) {
-    return refuse("profile", "has a vertex " + std::to_string(n + 1) + " " + cause, remedy);
+    return refuse_shape("profile", "has a vertex " + std::to_string(n + 1) + " " + cause, remedy);
 }
 
 }  // namespace
@@ -292,15 +296,15 @@ Result<void> make_profile(Cutter& c) {
 Result<void> check_profile(const Cutter& c) {
     const auto& vertices = c.profile;
     if (vertices.empty())
-        return refuse("profile", "is missing",
-                      c.kind == CutterKind::profile
-                          ? "add profile = [[r, z, bulge], ...], from the tip out and up"
-                          : "make_profile() makes it from the sizes of the kind");
+        return refuse_shape("profile", "is missing",
+                            c.kind == CutterKind::profile
+                                ? "add profile = [[r, z, bulge], ...], from the tip out and up"
+                                : "make_profile() makes it from the sizes of the kind");
     if (vertices.size() > kMostVertices)
-        return refuse("profile",
-                      "has " + std::to_string(vertices.size()) + " vertices, more than " +
-                          std::to_string(kMostVertices),
-                      "join lines that differ little, and write rounded parts as arcs, with a bulge");
+        return refuse_shape("profile",
+                            "has " + std::to_string(vertices.size()) + " vertices, more than " +
+                                std::to_string(kMostVertices),
+                            "join lines that differ little, and write rounded parts as arcs, with a bulge");
     for (std::size_t n = 0; n < vertices.size(); ++n) {
         const ProfileVertex& v = vertices[n];
         if (v.r_mm < 0)
@@ -328,11 +332,13 @@ Result<void> check_profile(const Cutter& c) {
         return refuse_vertex(vertices.size() - 1, "on the axis",
                              "end the profile at the neck or shank that carries it");
     if (vertices.size() == 1 && !(c.length_mm > 0))
-        return refuse("profile", "has one vertex and no height", "add the vertex at which the edges end");
+        return refuse_shape("profile", "has one vertex and no height",
+                            "add the vertex at which the edges end");
     if (c.length_mm < vertices.back().z_mm)
-        return refuse("length_mm",
-                      "ends below the profile's last vertex at " + plain_number(vertices.back().z_mm) + " mm",
-                      "leave length_mm out, or give the end of the cutting edges");
+        return refuse_shape(
+            "length_mm",
+            "ends below the profile's last vertex at " + plain_number(vertices.back().z_mm) + " mm",
+            "leave length_mm out, or give the end of the cutting edges");
     const std::vector<ProfileElement> elements = profile_elements(c);
     for (std::size_t n = 0; n < elements.size(); ++n) {
         const ProfileElement& e = elements[n];
@@ -341,17 +347,17 @@ Result<void> check_profile(const Cutter& c) {
                    plain_number(e.to.r) + ", " + plain_number(e.to.z) + ")";
         };
         if (e.from_normal.r < -kSlack || e.to_normal.r < -kSlack)
-            return refuse("profile", "has an arc " + place() + " that hangs back below its ends",
-                          "split it where it is lowest or highest: a profile never goes down");
+            return refuse_shape("profile", "has an arc " + place() + " that hangs back below its ends",
+                                "split it where it is lowest or highest: a profile never goes down");
         if (e.radius_mm < 0 && e.from_normal.z > 0 && e.to_normal.z < 0 && !(e.centre.r + e.radius_mm > 0))
-            return refuse("profile", "crosses the axis " + place(),
-                          "r is the distance from the axis, 0 or more");
+            return refuse_shape("profile", "crosses the axis " + place(),
+                                "r is the distance from the axis, 0 or more");
         if (n > 0 && e.is_level() && elements[n - 1].is_level() &&
             dot(e.from_normal, elements[n - 1].to_normal) < 0)
-            return refuse("profile", "turns back on itself " + place(), "remove the vertex in between");
+            return refuse_shape("profile", "turns back on itself " + place(), "remove the vertex in between");
     }
     if (!(largest_radius_mm(elements) >= 0.5 * kLimits.cutter_diameter.range.min))
-        return refuse("profile", "is thinner than any cutter", range_remedy(kLimits.cutter_diameter));
+        return refuse_shape("profile", "is thinner than any cutter", range_remedy(kLimits.cutter_diameter));
     return {};
 }
 

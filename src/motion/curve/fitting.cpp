@@ -185,7 +185,7 @@ void measure(const Run& run, const BSplineMotion& motion, MotionFit& fit) {
     }
 }
 
-Result<void> check(std::span<const ToolPose> poses, const FitOptions& o) {
+Result<void> check_poses(std::span<const ToolPose> poses, const FitOptions& o) {
     if (!(o.position_tolerance_mm > 0) || !(o.angle_tolerance_deg > 0) || !(o.corner_deg > 0))
         return fail("a tolerance of the fit is not greater than zero",
                     "give millimetres and degrees above 0");
@@ -203,7 +203,7 @@ Result<void> check(std::span<const ToolPose> poses, const FitOptions& o) {
 }  // namespace
 
 Result<MotionFit> fit_motion(std::span<const ToolPose> poses, const FitOptions& options) {
-    if (const Result<void> good = check(poses, options); !good) return std::unexpected(good.error());
+    if (const Result<void> good = check_poses(poses, options); !good) return std::unexpected(good.error());
     // The distinct poses, and for each pose of the stream the index of its distinct pose.
     std::vector<ToolPose> distinct;
     std::vector<std::size_t> first_of, which;

@@ -16,7 +16,7 @@ std::unexpected<Error> refuse(const Keyframe& keyframe, std::string cause, std::
     return fail_at({}, keyframe.line, 0, std::move(cause), std::move(remedy));
 }
 
-Result<void> check(std::span<const Keyframe> keyframes) {
+Result<void> check_keyframes(std::span<const Keyframe> keyframes) {
     for (const Keyframe& k : keyframes) {
         if (!is_finite(k.pose.tip_mm) || !is_finite(k.pose.axis) || !std::isfinite(k.weight) ||
             !std::isfinite(k.feed_mm_per_min))
@@ -141,7 +141,7 @@ struct MoveMaker {
 };
 
 Result<std::vector<Move>> fitted_moves(std::span<const Keyframe> keyframes, MoveMaker maker) {
-    if (const Result<void> good = check(keyframes); !good) return std::unexpected(good.error());
+    if (const Result<void> good = check_keyframes(keyframes); !good) return std::unexpected(good.error());
     std::vector<ToolPose> poses;
     for (const Keyframe& k : keyframes) poses.push_back(k.pose);
     const Result<MotionFit> fit = fit_motion(poses);
@@ -170,7 +170,7 @@ Result<KeyframeMotion> interpolate_keyframes(std::span<const Keyframe> keyframes
                           std::to_string(kMostSplineKeyframes),
                       "write interpolation = \"fit\" or \"linear\", or split the motion");
     }
-    if (const Result<void> good = check(keyframes); !good) return std::unexpected(good.error());
+    if (const Result<void> good = check_keyframes(keyframes); !good) return std::unexpected(good.error());
     const Stations s = stations_of(keyframes, options.spacing);
     if (s.poses.size() < 2)
         return fail("a motion needs at least two different keyframes", "add keyframes along the path");
@@ -186,7 +186,7 @@ Result<std::vector<Move>> keyframe_moves(std::span<const Keyframe> keyframes, do
         return fitted_moves(keyframes, {feed_mm_per_min, tolerance, options.max_moves});
     if (options.interpolation == Interpolation::linear) {
         std::vector<Move> moves;
-        if (const Result<void> good = check(keyframes); !good) return std::unexpected(good.error());
+        if (const Result<void> good = check_keyframes(keyframes); !good) return std::unexpected(good.error());
         if (stations_of(keyframes, options.spacing).poses.size() < 2)
             return fail("a motion needs at least two different keyframes", "add keyframes along the path");
         for (std::size_t i = 1; i < keyframes.size(); ++i) {

@@ -34,7 +34,7 @@ Pieces half_of(const std::vector<double>& sound, double rate, std::size_t which)
     return half;
 }
 
-std::vector<double> played(const VoiceModel& model, bool textured, double seconds, std::uint64_t seed) {
+std::vector<double> played_voice(const VoiceModel& model, bool textured, double seconds, std::uint64_t seed) {
     const double rate = model.spectrum.sample_rate_hz;
     ModelNoise noise(model.spectrum, textured && model.texture ? &*model.texture : nullptr, seed);
     const double gain = math::pow(10, 0.05 * model.level_db);
@@ -82,10 +82,10 @@ VoiceQuality quality_of(const VoiceModel& model, const PreparedRecording& record
     q.held_out_plain_db = held_out(kPlainOrder, 0, 0);
 
     const double seconds = static_cast<double>(sound.size()) / rate;
-    const std::vector<double> gaussian = played(model, false, std::min(seconds, kMostPlayedS), 1);
-    const std::vector<double> voice = played(model, true, std::min(seconds, kMostPlayedS), 1);
+    const std::vector<double> gaussian = played_voice(model, false, std::min(seconds, kMostPlayedS), 1);
+    const std::vector<double> voice = played_voice(model, true, std::min(seconds, kMostPlayedS), 1);
     double power = 0;
-    const std::vector<double> long_voice = played(model, true, kLevelS, 2);
+    const std::vector<double> long_voice = played_voice(model, true, kLevelS, 2);
     for (const double v : long_voice) power += v * v / static_cast<double>(long_voice.size());
     q.level_error_db = decibels(power) - model.level_db;
     // Remove the slow level of the hand: in playback it comes from the stroke.

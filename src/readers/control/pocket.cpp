@@ -12,7 +12,7 @@ namespace {
 constexpr double kSameMm = 1e-6;
 constexpr double kUsualStep = 0.8;  // of the tool's diameter, from ring to ring
 
-double pass_count(const Pocket& pocket) {
+double step_count(const Pocket& pocket) {
     const double height = pocket.depths.top - pocket.depths.bottom;
     return pocket.infeed > 0 ? std::max(1.0, std::ceil(height / pocket.infeed - 1e-9)) : 1;
 }
@@ -119,25 +119,25 @@ Turn turn_about(Vec3 from, Vec3 centre, double turn_rad, double z) {
 }
 
 double ring_count(const Pocket& pocket) {
-    return pass_count(pocket) * rings_of_pass(pocket);
+    return step_count(pocket) * rings_of_pass(pocket);
 }
 
 double stud_ring_count(const Pocket& stud) {
-    return pass_count(stud) * rings_of_stud_pass(stud);
+    return step_count(stud) * rings_of_stud_pass(stud);
 }
 
 double ring_count(const CurvedSlot& slot) {
-    return pass_count(slot.pocket) * (1 + rings_of_slot_pass(slot.pocket));
+    return step_count(slot.pocket) * (1 + rings_of_slot_pass(slot.pocket));
 }
 
 double ring_count(const Polygon& polygon) {
-    return pass_count(polygon.stud) * rings_of_polygon_pass(polygon);
+    return step_count(polygon.stud) * rings_of_polygon_pass(polygon);
 }
 
 // A slot as wide as the tool is a line there and back.
 Result<void> mill_pocket(const Pocket& pocket, Vec3 from, const PocketMove& go) {
     const PocketDepths& depths = pocket.depths;
-    const double passes = pass_count(pocket), rings = rings_of_pass(pocket), step = step_of(pocket);
+    const double passes = step_count(pocket), rings = rings_of_pass(pocket), step = step_of(pocket);
     const double outer = pocket.radius + pocket.allowance;
     const double width = pocket.half_width - outer, length = pocket.half_length - outer;
     const double start = std::max(0.0, length - std::max(width, 0.0));  // of the line within a slot
@@ -168,7 +168,7 @@ Result<void> mill_pocket(const Pocket& pocket, Vec3 from, const PocketMove& go) 
 Result<void> mill_slot(const CurvedSlot& slot, Vec3 from, const PocketMove& go) {
     const Pocket& pocket = slot.pocket;
     const PocketDepths& depths = pocket.depths;
-    const double passes = pass_count(pocket), rings = rings_of_slot_pass(pocket);
+    const double passes = step_count(pocket), rings = rings_of_slot_pass(pocket);
     const double most = pocket.half_width - pocket.radius - pocket.allowance;
     const double way = pocket.clockwise ? -1 : 1;  // a slot clockwise is one counter-clockwise in a mirror
     const double first = pocket.clockwise ? pocket.angle_rad + slot.sweep_rad : pocket.angle_rad;
@@ -219,7 +219,7 @@ Result<void> mill_slot(const CurvedSlot& slot, Vec3 from, const PocketMove& go) 
 // The tool goes down beside the blank, below its lower side.
 Result<void> mill_stud(const Pocket& stud, Vec3 from, const PocketMove& go) {
     const PocketDepths& depths = stud.depths;
-    const double passes = pass_count(stud), rings = rings_of_stud_pass(stud), step = step_of(stud);
+    const double passes = step_count(stud), rings = rings_of_stud_pass(stud), step = step_of(stud);
     const double inner = stud.radius + stud.allowance;
     const double beside = std::max(stud.blank_half_width, stud.half_width) + 2 * stud.radius;
     Mill mill(stud, from, go);
@@ -244,7 +244,7 @@ Result<void> mill_stud(const Pocket& stud, Vec3 from, const PocketMove& go) {
 Result<void> mill_polygon(const Polygon& polygon, Vec3 from, const PocketMove& go) {
     const Pocket& stud = polygon.stud;
     const PocketDepths& depths = stud.depths;
-    const double passes = pass_count(stud), rings = rings_of_polygon_pass(polygon), step = step_of(stud);
+    const double passes = step_count(stud), rings = rings_of_polygon_pass(polygon), step = step_of(stud);
     const double inner = stud.radius + stud.allowance, turn = math::kTwoPi / polygon.sides;
     const double corner = std::min(stud.corner, stud.half_width);
     const double half_side = (stud.half_width - corner) * math::tan(turn / 2);

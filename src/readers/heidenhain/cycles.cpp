@@ -62,7 +62,7 @@ constexpr std::array kCycles{
 };
 
 // Cycles without a path of their own: orientation, tolerance, load.
-bool is_silent(int cycle) {
+bool is_silent_cycle(int cycle) {
     return cycle == 13 || cycle == 32 || cycle == 239;
 }
 
@@ -171,7 +171,7 @@ Result<void> Interpreter::define_cycle(LineReader& in) {
             return read_parameters(in, unused);
         }
         default:
-            if (is_silent(number)) return skip_continuation();
+            if (is_silent_cycle(number)) return skip_continuation();
             if (is_of_machine(number)) return leave_out_cycle(number);
             if (number == kEngraving) {
                 cycle_ = {};

@@ -36,7 +36,7 @@ constexpr Refused kRefusedG[] = {
 };
 
 template <std::size_t N>
-bool is_one_of(const int (&numbers)[N], int number) {
+bool is_code_of(const int (&numbers)[N], int number) {
     return std::find(std::begin(numbers), std::end(numbers), number) != std::end(numbers);
 }
 
@@ -230,9 +230,9 @@ Result<void> Interpreter::apply_g(Words& words, const Code& code) {
         set_work_offset(g);
         return set_frame(line_number());
     }
-    if (is_one_of(kSilentG, g) || (g >= 810 && g <= 829)) return {};
+    if (is_code_of(kSilentG, g) || (g >= 810 && g <= 829)) return {};
     const std::string name = "G" + std::to_string(g);
-    if (is_one_of(kForeignG, g)) {
+    if (is_code_of(kForeignG, g)) {
         if (passed_over_.insert(name).second) {
             path_.warn(line_number(), name + " is no code of this control: it is taken not to move the tool");
         }
@@ -285,7 +285,7 @@ Result<void> Interpreter::apply_m_after(const Words& words) {
                 path_.spindle_on = false;
                 break;
             default: {
-                if (is_one_of(kSilentM, code.number)) break;
+                if (is_code_of(kSilentM, code.number)) break;
                 const std::string name = "M" + std::to_string(code.number);
                 if (!passed_over_.insert(name).second) break;
                 path_.warn(line_number(), name +

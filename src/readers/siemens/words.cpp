@@ -91,7 +91,7 @@ bool is_cycle(std::string_view name) {
 }
 
 template <std::size_t N>
-bool is_one_of(const std::string_view (&words)[N], std::string_view name) {
+bool is_word_of(const std::string_view (&words)[N], std::string_view name) {
     return std::find(std::begin(words), std::end(words), name) != std::end(words);
 }
 
@@ -239,12 +239,12 @@ Result<bool> Interpreter::read_keyword(Cursor& in, const std::string& name, Word
         euler_stated_ = true;
         return true;
     }
-    if (is_one_of(kSilent, name)) return skip_rest();
-    if (is_one_of(kToolFrames, name)) {
+    if (is_word_of(kSilent, name)) return skip_rest();
+    if (is_word_of(kToolFrames, name)) {
         words.tool_frame = name;
         return true;
     }
-    if (is_one_of(kFrameWords, name)) {
+    if (is_word_of(kFrameWords, name)) {
         words.frame = name;
         return true;
     }

@@ -13,14 +13,14 @@ constexpr int kSpeedDecimals = 2, kAngleDecimals = 3, kForceDecimals = 5, kTorqu
 constexpr int kDurationDecimals = 9, kFactorDecimals = 4;
 constexpr int kMultiplierDecimals = 6, kDisplacementDecimals = 9;
 
-void append(std::string& csv, double value, int decimals) {
+void append_field(std::string& csv, double value, int decimals) {
     csv += ',';
     append_fixed(csv, value, decimals);
 }
-void append(std::string& csv, Vec3 value, int decimals) {
-    append(csv, value.x, decimals);
-    append(csv, value.y, decimals);
-    append(csv, value.z, decimals);
+void append_field(std::string& csv, Vec3 value, int decimals) {
+    append_field(csv, value.x, decimals);
+    append_field(csv, value.y, decimals);
+    append_field(csv, value.z, decimals);
 }
 
 }  // namespace
@@ -42,21 +42,21 @@ void append_force_row(std::string& csv, const milling::CutRow& row, const millin
     append_fixed(csv, row.start_s, kTimeDecimals);
     csv += ',';
     csv += std::to_string(row.line);
-    append(csv, row.pose.tip_mm, kLengthDecimals);
-    append(csv, row.pose.frame.z, kAxisDecimals);
-    append(csv, row.spindle_rpm, kSpeedDecimals);
-    append(csv, row.feed_mm_per_s() * 60, kSpeedDecimals);
-    append(csv, hull.entry_rad * kDegPerRad, kAngleDecimals);
-    append(csv, hull.exit_rad * kDegPerRad, kAngleDecimals);
-    append(csv, hull.axial_depth_mm, kLengthDecimals);
-    append(csv, force.mean_n, kForceDecimals);
-    append(csv, force.peak_n, kForceDecimals);
-    append(csv, force.peak_xy_n, kForceDecimals);
-    append(csv, 1e-3 * force.mean_torque_nmm, kTorqueDecimals);
-    append(csv, 1e-3 * force.peak_torque_nmm, kTorqueDecimals);
-    append(csv, row.removed_mm3, kVolumeDecimals);
-    append(csv, row.duration_s(), kDurationDecimals);
-    append(csv, row.reconciled, kFactorDecimals);
+    append_field(csv, row.pose.tip_mm, kLengthDecimals);
+    append_field(csv, row.pose.frame.z, kAxisDecimals);
+    append_field(csv, row.spindle_rpm, kSpeedDecimals);
+    append_field(csv, row.feed_mm_per_s() * 60, kSpeedDecimals);
+    append_field(csv, hull.entry_rad * kDegPerRad, kAngleDecimals);
+    append_field(csv, hull.exit_rad * kDegPerRad, kAngleDecimals);
+    append_field(csv, hull.axial_depth_mm, kLengthDecimals);
+    append_field(csv, force.mean_n, kForceDecimals);
+    append_field(csv, force.peak_n, kForceDecimals);
+    append_field(csv, force.peak_xy_n, kForceDecimals);
+    append_field(csv, 1e-3 * force.mean_torque_nmm, kTorqueDecimals);
+    append_field(csv, 1e-3 * force.peak_torque_nmm, kTorqueDecimals);
+    append_field(csv, row.removed_mm3, kVolumeDecimals);
+    append_field(csv, row.duration_s(), kDurationDecimals);
+    append_field(csv, row.reconciled, kFactorDecimals);
     if (chatter != nullptr) {
         csv += ',';
         if (chatter->multiplier) append_fixed(csv, *chatter->multiplier, kMultiplierDecimals);
@@ -65,8 +65,8 @@ void append_force_row(std::string& csv, const milling::CutRow& row, const millin
             append_fixed(csv, *chatter->peak_displacement_mm, kDisplacementDecimals);
     }
     if (band != nullptr) {
-        append(csv, band->low_n, kForceDecimals);
-        append(csv, band->high_n, kForceDecimals);
+        append_field(csv, band->low_n, kForceDecimals);
+        append_field(csv, band->high_n, kForceDecimals);
     }
     csv += '\n';
 }

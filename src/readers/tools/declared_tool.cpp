@@ -23,7 +23,7 @@ constexpr double kCornerSlack = 0.003;
 // Z10 in the name of a drill is a size of its holder.
 constexpr int kMostFlutesOfDrill = 4;
 
-void add(std::string& remark, const std::string& text) {
+void add_remark(std::string& remark, const std::string& text) {
     remark += (remark.empty() ? "" : "; ") + text;
 }
 
@@ -35,7 +35,8 @@ double cone_height(double tip_mm, double diameter_mm, double point_deg) {
 }
 
 void flatten(ToolShape shape, const char* why, std::string& remark) {
-    add(remark, "the " + std::string(name_of(shape)) + " is milled as an end mill of its diameter: " + why);
+    add_remark(remark,
+               "the " + std::string(name_of(shape)) + " is milled as an end mill of its diameter: " + why);
 }
 
 void set_point(motion::DeclaredTool& tool, const char* kind, const ToolSizes& sizes, double assumed_deg,
@@ -51,7 +52,8 @@ void set_point(motion::DeclaredTool& tool, const char* kind, const ToolSizes& si
     // Edges that end within the cone belong to a cutter that ends there.
     if (tool.edge_mm < cone_height(tool.tip_mm, tool.diameter_mm, tool.point_deg)) tool.edge_mm = 0;
     if (!(sizes.point_deg > 0))
-        add(remark, "no point angle is stated: " + short_decimal(assumed_deg) + " degrees are assumed");
+        add_remark(remark,
+                   "no point angle is stated: " + short_decimal(assumed_deg) + " degrees are assumed");
 }
 
 // The stated diameter of a tapered mill is that of its tip; it is widest at the end of its edges.
@@ -70,7 +72,8 @@ void set_taper(motion::DeclaredTool& tool, const ToolSizes& sizes, std::string& 
         return;
     }
     if (!(sizes.edge_mm > 0))
-        add(remark, "no length of the edges is stated: " + short_decimal(tool.edge_mm) + " mm are assumed");
+        add_remark(remark,
+                   "no length of the edges is stated: " + short_decimal(tool.edge_mm) + " mm are assumed");
     tool.kind = "taper";
     tool.taper_deg = sizes.taper_deg;
     tool.tip_mm = sizes.diameter_mm;
@@ -85,7 +88,7 @@ void set_kind(motion::DeclaredTool& tool, const ToolSizes& sizes, std::string& r
             break;
         case ToolShape::bull:
             if (sizes.corner_mm == 0)
-                add(remark, "its corner radius is 0 or not stated: its corner is taken as sharp");
+                add_remark(remark, "its corner radius is 0 or not stated: its corner is taken as sharp");
             break;
         case ToolShape::taper:
             set_taper(tool, sizes, remark);
@@ -107,7 +110,7 @@ void set_kind(motion::DeclaredTool& tool, const ToolSizes& sizes, std::string& r
             break;
         case ToolShape::centre_drill:
             set_point(tool, "drill", sizes, kDrillPoint, remark);
-            add(remark, "the pilot and the cone of the centre drill are taken as one drill point");
+            add_remark(remark, "the pilot and the cone of the centre drill are taken as one drill point");
             break;
         case ToolShape::engraver:
             set_point(tool, "engraver", sizes, kEngraverPoint, remark);
@@ -127,7 +130,7 @@ void set_kind(motion::DeclaredTool& tool, const ToolSizes& sizes, std::string& r
                 tool.neck_mm = sizes.neck_mm;
             } else {
                 tool.corner_mm = 0.5 * sizes.diameter_mm;
-                add(remark, "the lollipop mill is milled as a ball end mill: its neck is not stated");
+                add_remark(remark, "the lollipop mill is milled as a ball end mill: its neck is not stated");
             }
             break;
         case ToolShape::lens:
@@ -158,16 +161,16 @@ void set_kind(motion::DeclaredTool& tool, const ToolSizes& sizes, std::string& r
 
 bool set_shape(motion::DeclaredTool& tool, ToolSizes sizes, std::string& remark) {
     if (sizes.shape == ToolShape::probe || sizes.shape == ToolShape::turning) {
-        add(remark, "a " + std::string(name_of(sizes.shape)) + " mills nothing");
+        add_remark(remark, "a " + std::string(name_of(sizes.shape)) + " mills nothing");
         return false;
     }
     if (!kLimits.cutter_diameter.range.contains(sizes.diameter_mm)) {
-        add(remark, sizes.diameter_mm == 0 ? "no diameter is stated"
-                                           : out_of_range(kLimits.cutter_diameter, sizes.diameter_mm));
+        add_remark(remark, sizes.diameter_mm == 0 ? "no diameter is stated"
+                                                  : out_of_range(kLimits.cutter_diameter, sizes.diameter_mm));
         return false;
     }
     if (2 * sizes.corner_mm > sizes.diameter_mm + 2 * kCornerSlack) {
-        add(remark, "the corner radius is more than half the diameter");
+        add_remark(remark, "the corner radius is more than half the diameter");
         return false;
     }
     sizes.corner_mm = std::min(sizes.corner_mm, 0.5 * sizes.diameter_mm);
@@ -180,7 +183,7 @@ bool set_shape(motion::DeclaredTool& tool, ToolSizes sizes, std::string& remark)
     if (kLimits.cutting_length.range.contains(sizes.edge_mm)) tool.edge_mm = sizes.edge_mm;
     const bool has_angle = sizes.point_deg > 0 || sizes.taper_deg > 0;
     if (has_angle && (sizes.shape == ToolShape::unstated || sizes.shape == ToolShape::flat))
-        add(remark, "an angle is stated, and no shape that has one: the angle is left out");
+        add_remark(remark, "an angle is stated, and no shape that has one: the angle is left out");
     set_kind(tool, sizes, remark);
     return true;
 }

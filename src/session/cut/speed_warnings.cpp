@@ -33,7 +33,7 @@ struct Worst {
     }
 };
 
-std::string rounded(double value) {
+std::string three_digits(double value) {
     return format_digits(value, 3);
 }
 
@@ -60,8 +60,8 @@ Warnings speed_warnings(const MillSetup& setup, const std::string& program) {
         const milling::Cutter& cutter = setup.cutters[setup.cutter_of_move[feed.move]];
         const double rpm = setup.rpm_of_move[feed.move], mm_per_min = feed_mm_per_min(move);
         warnings.push_back({program, move.line,
-                            rounded(mm_per_min) + " mm/min at " + rounded(rpm) + " rpm are " +
-                                rounded(mm_per_min / (rpm * cutter.flutes)) +
+                            three_digits(mm_per_min) + " mm/min at " + three_digits(rpm) + " rpm are " +
+                                three_digits(mm_per_min / (rpm * cutter.flutes)) +
                                 " mm per tooth for a cutter of " + format_decimal(cutter.diameter_mm) +
                                 " mm" + feed.others() +
                                 ": no cutter takes more than a tenth of its diameter; check F and S"});
@@ -70,10 +70,10 @@ Warnings speed_warnings(const MillSetup& setup, const std::string& program) {
         const motion::Move& move = setup.moves[speed.move];
         const milling::Cutter& cutter = setup.cutters[setup.cutter_of_move[speed.move]];
         warnings.push_back({program, move.line,
-                            rounded(setup.rpm_of_move[speed.move]) + " rpm move the rim of a cutter of " +
-                                format_decimal(cutter.diameter_mm) + " mm at " +
-                                rounded(speed.value * kMostCuttingSpeed) + " m/min" + speed.others() +
-                                ": no tool stands more than about 10000; check S"});
+                            three_digits(setup.rpm_of_move[speed.move]) +
+                                " rpm move the rim of a cutter of " + format_decimal(cutter.diameter_mm) +
+                                " mm at " + three_digits(speed.value * kMostCuttingSpeed) + " m/min" +
+                                speed.others() + ": no tool stands more than about 10000; check S"});
     }
     return warnings;
 }

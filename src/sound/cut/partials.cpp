@@ -5,17 +5,13 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "sound/cut/smoothstep.hpp"
 
 namespace tribo::sound {
 namespace {
 
 // Two frames: what SSE2, NEON and WebAssembly hold in a register.
 using Lanes = double __attribute__((vector_size(16)));
-
-double smoothstep(double x) {
-    const double t = std::clamp(x, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 void trim(Partials& p) {
     while (p.count > 0) {

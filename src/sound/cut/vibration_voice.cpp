@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/math.hpp"
+#include "sound/cut/smoothstep.hpp"
 #include "sound/play/calibration.hpp"
 
 namespace tribo::sound {
@@ -14,11 +15,6 @@ namespace {
 constexpr double kFadeSeconds = 0.003;
 // A gap between traces up to this is filled: what comes before it may not have been heard yet.
 constexpr std::int64_t kGap = 1024;
-
-double smoothstep(double x) {
-    const double t = std::clamp(x, 0.0, 1.0);
-    return t * t * (3 - 2 * t);
-}
 
 }  // namespace
 

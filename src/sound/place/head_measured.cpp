@@ -32,7 +32,7 @@ struct Weighted {
 };
 
 // Barycentric weights of `d` in the spherical triangle: the solution of [a b c] w = d, scaled to sum 1.
-bool inside(Vec3 a, Vec3 b, Vec3 c, Vec3 d, double* w) {
+bool is_inside(Vec3 a, Vec3 b, Vec3 c, Vec3 d, double* w) {
     const double volume = dot(a, cross(b, c));
     if (std::abs(volume) < 1e-9) return false;
     w[0] = dot(d, cross(b, c)) / volume;
@@ -66,7 +66,7 @@ std::vector<Weighted> around(const std::vector<Vec3>& all, Vec3 d) {
             for (std::size_t k = j + 1; k < few; ++k) {
                 const std::size_t at[3] = {near[i].second, near[j].second, near[k].second};
                 double w[3];
-                if (!inside(all[at[0]], all[at[1]], all[at[2]], d, w)) continue;
+                if (!is_inside(all[at[0]], all[at[1]], all[at[2]], d, w)) continue;
                 const double size = circle(all[at[0]], all[at[1]], all[at[2]]);
                 if (size >= best) continue;
                 best = size;

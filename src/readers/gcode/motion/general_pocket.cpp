@@ -33,7 +33,7 @@ Result<std::optional<double>> length_of(char letter, Command& command, const Sta
 }
 
 // The radius of the tool beside G41 and G42; without them the contour is that of its centre.
-double radius_of(Command& command, const State& state, Output& output) {
+double corner_radius(Command& command, const State& state, Output& output) {
     const Word* number = command.use('D');
     if (!command.side_of_pocket()) return kWithinMm;
     const int offset = number == nullptr ? state.tool() : static_cast<int>(number->value);
@@ -89,7 +89,7 @@ Result<void> begin_pocket(Command& command, State& state, Flow& flow, Output& ou
     pocket.milling.infeed = std::abs(*infeed);
     pocket.milling.step = std::abs(*step);
     pocket.milling.allowance = std::abs(finish.value_or(0));
-    pocket.milling.radius = radius_of(command, state, output);
+    pocket.milling.radius = corner_radius(command, state, output);
     pocket.milling.clockwise = command.side_of_pocket() == 420;
     pocket.like = new_move(motion::MoveKind::feed, command, state);
     if (auto fed = set_feed(pocket.like, command, state, output); !fed) return fed;
