@@ -17,7 +17,7 @@ namespace {
 using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr const char* kSlot = "G21 G90\nG0 X0 Y5 Z5\nG1 Z-2 F300\nG1 X12\n";
+constexpr const char* kSlotText = "G21 G90\nG0 X0 Y5 Z5\nG1 Z-2 F300\nG1 X12\n";
 
 Outcome render(const Scratch& folder, const std::string& input, std::vector<std::string> more,
                const std::string& out = "out") {
@@ -32,7 +32,7 @@ Json summary(const Scratch& folder, const std::string& out = "out") {
 
 TEST(Program, alone_is_milled_and_every_assumption_is_said) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
+    folder.put("p.nc", kSlotText);
     const Outcome outcome = render(folder, "p.nc", {"--only", "summary,report"});
     ASSERT_EQ(outcome.code, 0) << outcome.err;
     const std::string lines[] = {
@@ -73,9 +73,9 @@ TEST(Program, and_the_job_that_stands_for_it_give_the_same_forces) {
         std::string name, program;
         std::vector<std::string> flags;
     } cases[] = {
-        {"p.nc", kSlot, {}},
+        {"p.nc", kSlotText, {}},
         {"p.nc",
-         kSlot,
+         kSlotText,
          {"--tool", "ball 4", "--stock", "20 12 6", "--material", "steel", "--spindle-rpm", "7000"}},
         {"p.nc", two_tools, {"--tool", "T2 bull 4 corner 0.5", "--tool", "T1 flat 1/4in 3 flutes"}},
         {"p.nc", inch, {}},
@@ -128,7 +128,7 @@ TEST(Program, of_two_tools_with_one_in_the_call_says_that_it_stands_in) {
 
 TEST(Program, leaves_a_stock_to_another_job_only_with_a_job_of_its_own) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
+    folder.put("p.nc", kSlotText);
     folder.put("next.toml",
                "[stock]\nfrom = \"out\"\n[cutter]\nkind = \"flat\"\ndiameter_mm = 3\n[material]\nname = "
                "\"steel\"\n[process]\nspindle_rpm = 5000\n[path]\ngcode = \"p.nc\"\n");
@@ -144,7 +144,7 @@ TEST(Program, leaves_a_stock_to_another_job_only_with_a_job_of_its_own) {
 
 TEST(Program, with_wrong_flags_is_refused_with_the_remedy) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
+    folder.put("p.nc", kSlotText);
     folder.put("slot.toml",
                "[stock]\nbox_mm = [[0, 0, -10], [30, 20, 0]]\n[cutter]\nkind = \"flat\"\ndiameter_mm = 6\n"
                "[material]\nname = \"steel\"\n[process]\nspindle_rpm = 5000\n[path]\ngcode = \"p.nc\"\n");
@@ -199,13 +199,13 @@ TEST(Program, with_wrong_flags_is_refused_with_the_remedy) {
 
 TEST(Program, is_read_from_a_pipe_and_under_any_name) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
-    folder.put("odd.ending", kSlot);
+    folder.put("p.nc", kSlotText);
+    folder.put("odd.ending", kSlotText);
     ASSERT_EQ(render(folder, "p.nc", {"--only", "forces"}).code, 0);
     ASSERT_EQ(render(folder, "odd.ending", {"--only", "forces"}, "odd").code, 0);
     EXPECT_EQ(folder.get("out/forces.csv"), folder.get("odd/forces.csv"));
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
-    const auto into_the_pipe = [&] { return std::jthread([&] { folder.put("pipe", kSlot); }); };
+    const auto into_the_pipe = [&] { return std::jthread([&] { folder.put("pipe", kSlotText); }); };
     {
         const auto writer = into_the_pipe();
         const Outcome outcome = render(folder, "pipe", {"--only", "forces"}, "piped");
@@ -227,7 +227,7 @@ TEST(Program, is_read_from_a_pipe_and_under_any_name) {
 
 TEST(Program, can_be_felt) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
+    folder.put("p.nc", kSlotText);
     folder.put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,6,5,1\n0.2,6,5,-2.2\n0.4,6,5,1\n");
     const Outcome felt = run_tribo({"feel", "p.nc", "--tool", "flat 6", "--stroke", "stroke.csv", "--out",
                                     "trace.csv", "--device", "playback", "--resolution", "0.5"},
@@ -245,7 +245,7 @@ TEST(Program, can_be_felt) {
 
 TEST(Program, is_shown_live) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
+    folder.put("p.nc", kSlotText);
     folder.put("web/index.html", "<!doctype html>");
     RunningTribo live({"live", "p.nc", "--port", "0", "--device", "simulated", "--web-root", folder / "web",
                        "--job-out", "j.toml"},
@@ -258,7 +258,7 @@ TEST(Program, is_shown_live) {
 
 TEST(Program, of_a_live_cut_may_be_wrong_for_a_while) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
+    folder.put("p.nc", kSlotText);
     folder.put("index.html", "<p>page");
     RunningTribo live(
         {"live", "p.nc", "--resolution", "0.5", "--port", "0", "--web-root", ".", "--job-out", "j.toml"},
@@ -276,12 +276,12 @@ TEST(Program, of_a_live_cut_may_be_wrong_for_a_while) {
         Viewer latecomer(address_in(live.out_with("Ctrl-C")).port);
         const std::string said = latecomer.text_with(R"("files")");
         EXPECT_NE(said.find(says), std::string::npos) << said;
-        folder.put("p.nc", kSlot);
+        folder.put("p.nc", kSlotText);
         ASSERT_TRUE(viewer.step_back());
         EXPECT_NE(latecomer.text_with(R"("files")").find(R"("wrong":null)"), std::string::npos);
     }
     // A longer program is milled in a longer block; the job of the first stays.
-    folder.put("p.nc", std::string(kSlot) + "G1 X40\n");
+    folder.put("p.nc", std::string(kSlotText) + "G1 X40\n");
     ASSERT_TRUE(viewer.step_back());
     EXPECT_TRUE(viewer.say(R"({"op":"seek","t_s":6})") && viewer.state(true, 6));
     EXPECT_EQ(folder.get("j.toml"), job);
@@ -292,7 +292,7 @@ TEST(Program, of_a_live_cut_may_be_wrong_for_a_while) {
 
 TEST(Program, is_not_replaced_by_its_job_or_a_result) {
     const Scratch folder;
-    folder.put("p.nc", kSlot);
+    folder.put("p.nc", kSlotText);
     folder.put("stroke.csv", "t_s,x_mm,y_mm,z_mm\n0,6,5,1\n0.2,6,5,1\n");
     fs::create_hard_link(folder / "p.nc", folder / "p.toml");
     const Outcome over = render(folder, "p.nc", {"--job-out", "p.toml"});
@@ -300,10 +300,10 @@ TEST(Program, is_not_replaced_by_its_job_or_a_result) {
     EXPECT_EQ(
         over.err.substr(over.err.rfind("p.toml")),
         "p.toml: error: is an input of this run and would be replaced; name another file for the output\n");
-    EXPECT_EQ(folder.get("p.nc"), kSlot);
+    EXPECT_EQ(folder.get("p.nc"), kSlotText);
     // Nor is a job written that could not name it.
     const std::string odd = "p\xff\x1b.nc";
-    folder.put(odd, kSlot);
+    folder.put(odd, kSlotText);
     const Outcome unnamed = render(folder, odd, {"--job-out", "odd.toml"});
     EXPECT_EQ(unnamed.code, 2);
     EXPECT_NE(unnamed.err.find("a job cannot name p\\xff\\x1b.nc: not all of it is text; rename it first"),
