@@ -119,8 +119,8 @@ TEST(ServerLimits, serves_twelve_while_four_never_read) {
         }
     }
     EXPECT_EQ(recorded.server->clients(), 16u);
-    // 50 MB to each: more than sockets hold. The twelve take each before the next comes.
-    constexpr int kFrames = 200;
+    // 25 MB to each: more than sockets hold. The twelve take each before the next comes.
+    constexpr int kFrames = 100;
     for (int n = 0; n < kFrames; ++n) {
         recorded.server->send_all(
             std::make_shared<std::vector<std::uint8_t>>(250'000, static_cast<std::uint8_t>(n)));
