@@ -20,8 +20,8 @@ constexpr double kStill = 5e-6;
 // Normals of one smooth piece agree at least this well (product) from one step of the search to the next.
 constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance. A bend is too great from this share of the bend of a
-// sphere on.
-constexpr double kBendStep = 1e-3, kTooBent = 1.01;
+// sphere on: nearly round about the point, a hollow tells no way to its nearest place.
+constexpr double kBendStep = 1e-3, kTooBent = 0.98;
 // A side that is this share of a way behind does not come near over the way.
 constexpr double kBehind = 0.1;
 // Bends along an edge are measured over steps of this share along it, and at least this long beside the way
@@ -91,6 +91,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
     HalfSpaces::Edge edge;  // the last step's, if that was along one
     double along_mm = 0;    // of it
     double moved_mm = 0;    // since the start
+    Vec3 before = q;        // the last step
     for (int n = 0; n < kMostRounds; ++n) {
         double above_mm = -kAnyStep;  // of the intersection of all sides
         for (int i = 0; i < sides.count; ++i) {
@@ -126,8 +127,11 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             const bool is_known = std::abs(s.distance_mm) <= kUnsure && std::abs(above_mm) <= kOnSurface &&
                                   lists(sides, s.piece);
             if (!is_known) {
+                const int known = sides.count;
                 sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
-                next = sides.nearest(point_mm);
+                // A step into the air beyond an edge has passed it: first back to the edge.
+                const bool passed = n > 0 && sides.count > known && s.distance_mm > kUnsure;
+                next = sides.nearest(passed ? before : point_mm);
             }
             // On the surface, and no nearer point exists with the present sides.
             if ((is_known || std::abs(s.distance_mm) <= kOnSurface) && is_still(next)) {
@@ -136,6 +140,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             }
             ask = true;
         }
+        before = q;
         edge = sides.edge_at(next);
         const bool on_edge = squared_length(edge.along) > 0;
         const Vec3 step = (on_edge ? sides.nearest_on_bend(point_mm, edge, next, q) : next) - q;

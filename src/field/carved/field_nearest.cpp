@@ -18,7 +18,12 @@ constexpr double kStep = 7e-5;
 constexpr double kNoStep = 1e-6;
 // Largest number of bricks on each side in a search for the nearest surface.
 constexpr int kMostReach = 6;
-constexpr int kMostSearches = 8, kMostLooked = 48, kMostStarts = 3;
+// Searches for one point, and in one brick.
+constexpr int kMostSearches = 24, kMostStarts = 10;
+// Two starts this near to each other, in cells, lead to the same place; along an edge this near.
+constexpr double kOneStart = 0.75, kAlongEdge = 6;
+// Steps from a place that the grid shows down to the surface.
+constexpr int kMostDown = 8;
 // kOneWay: two surface points are on different sides if the product of their normals is less. kOneSlope:
 // distances come from one side if they rise by at least this share of the full slope.
 constexpr double kOneWay = 0.5, kOneSlope = 0.97;
@@ -30,8 +35,9 @@ constexpr double kAround = 0.87, kBulge = 0.1;
 // A ball at a surface point is proven to be air by balls in the shapes that meet there, larger by the inverse
 // of this share.
 constexpr double kOfInnerBall = 0.9;
-// Longest step of a search along the surface, in cells.
-constexpr double kLongestCells = 2;
+// Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
+// may pass over the cusp beside the start.
+constexpr double kLongestCells = 0.65;
 
 // Returns the gradient of the distances at a node by their differences, in mm per cell.
 Vec3 slope_at(const Brick& brick, int a, int b, int c) {
@@ -211,16 +217,20 @@ class FieldQuery::Candidates {
         BrickCoord brick;
     };
     void put(const One& one) {
+        const auto nearer = [](const One& a, const One& b) { return a.square < b.square; };
         if (count_ < all_.size()) {
             all_[count_++] = one;
+            if (count_ == all_.size()) std::ranges::make_heap(all_, nearer);
             return;
         }
-        const auto farthest = std::max_element(
-            all_.begin(), all_.end(), [](const One& a, const One& b) { return a.square < b.square; });
-        seen_mm_ = std::min(seen_mm_, std::sqrt(std::max(farthest->square, one.square)));
-        if (one.square < farthest->square) *farthest = one;
+        One& farthest = all_.front();
+        seen_mm_ = std::min(seen_mm_, std::sqrt(std::max(farthest.square, one.square)));
+        if (one.square >= farthest.square) return;
+        std::ranges::pop_heap(all_, nearer);
+        all_.back() = one;
+        std::ranges::push_heap(all_, nearer);
     }
-    std::array<One, 64> all_;
+    std::array<One, 192> all_;
     std::size_t count_ = 0;
     double seen_mm_ = 0;
 };
@@ -238,7 +248,7 @@ FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c,
         const std::uint16_t shape = brick.winner[index];
         rise = outward(shape == Brick::kUnlisted ? 0 : brick.shapes[shape], node);
     }
-    return {node - d * rise, rise};
+    return {node - d * rise, rise, {}};
 }
 
 // Returns true if the surface that a place represents is nowhere nearer to the point than `than_mm`.
@@ -249,55 +259,74 @@ bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
     return side * side + up * up >= than_mm * than_mm;
 }
 
-// Finds the node at the surface in a brick that is nearest to a point. The node must be so near that a point
-// of the surface less than `within_mm` away may be there, and farther than two cells from each of `but`.
-// Returns false if there is none.
+// Returns true if searches from both places lead to the same one. Surface that faces another way is the other
+// side of a corner.
+bool FieldQuery::is_alike(const Seen& a, const Seen& b) const {
+    const Vec3 off = (b.at - a.at) * per_cell, aside = off - dot(off, a.along) * a.along;
+    return squared_length(aside) < kOneStart * kOneStart && squared_length(off) < kAlongEdge * kAlongEdge &&
+           dot(a.normal, b.normal) > kOneWay;
+}
+
+// Over a cusp the grid shows a place in the air between its sides. Returns the surface behind it, seen from
+// the point.
+Vec3 FieldQuery::on_surface(Vec3 shown, Vec3 p) const {
+    const Vec3 ray = normalized(shown - p, Vec3{});
+    for (int n = 0; n < kMostDown; ++n) {
+        const double air_mm = distance_mm(shown);
+        if (std::abs(air_mm) <= kOnSurface) break;
+        shown += air_mm * ray;
+    }
+    return shown;
+}
+
+// Finds the place on the surface of a brick that is nearest to a point, as far as the nodes show it. It may
+// be that of a point of the surface less than `within_mm` away, and is not alike to any of `but`. Returns
+// false if there is none.
 bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Seen> but,
                               Seen& place) const {
-    // Surface that faces another way is the other side of a corner.
     const auto is_seen = [&](const Seen& s) {
-        return std::any_of(but.begin(), but.end(), [&](const Seen& other) {
-            return squared_length(other.at - s.at) < 4 * cell_mm * cell_mm &&
-                   dot(other.normal, s.normal) > kOneWay;
-        });
+        return std::any_of(but.begin(), but.end(), [&](const Seen& other) { return is_alike(other, s); });
     };
     const BrickRef ref = bricks.get(where);
     if (ref == kUntouched) {
-        const Vec3 at = clamped(box(where), p);
-        place = {at, blank().gradient(at)};
-        return !is_seen(place);
+        // Where the blank begins at the face of the brick, its surface is in a nearer one.
+        const Box3 here = box(where);
+        const Vec3 face = clamped(here, p);
+        const double outside = blank().distance_mm(face);
+        if (outside < 0) return false;
+        const Vec3 normal = blank().gradient(face), at = face - outside * normal;
+        place = {at, normal, {}};
+        return distance(clamped(here, at), at) <= kOnSurface && !is_seen(place);
     }
     const Brick& brick = (*pool)[ref];
     const Lattice nodes = lattice(where);
     const Vec3 q = (p - nodes.node(0, 0, 0)) * per_cell;
     // No point of the surface is farther than this from every node.
     const double close = (kClearCells + kRounding) * cell_mm, reach = within_mm * per_cell + kClearCells;
-    double least = reach * reach;
+    const double most = within_mm + kAround * cell_mm;
+    double least = 1e300;
     const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
     const auto high = [&](double at) {
         return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
     };
-    bool any = false;
     for (int c = low(q.z); c <= high(q.z); ++c) {
         for (int b = low(q.y); b <= high(q.y); ++b) {
             const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
-            if (yz >= least) continue;
             for (int a = low(q.x); a <= high(q.x); ++a) {
                 const double d =
                     static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
-                const double square = yz + (a - q.x) * (a - q.x);
-                if (d > close || d < -close || square >= least) continue;
-                const double beyond = within_mm + std::abs(d) + kAround * cell_mm;
-                if (square * cell_mm * cell_mm >= beyond * beyond) continue;
+                if (d > close || d < -close) continue;
+                const double far = std::min(least, most) + std::abs(d);
+                if ((yz + (a - q.x) * (a - q.x)) * cell_mm * cell_mm >= far * far) continue;
                 const Seen here = surface_by(brick, a, b, c, nodes.node(a, b, c));
-                if (none_nearer(here, p, within_mm) || is_seen(here)) continue;
-                least = square;
+                const double mm = distance(here.at, p);
+                if (mm >= least || none_nearer(here, p, within_mm) || is_seen(here)) continue;
+                least = mm;
                 place = here;
-                any = true;
             }
         }
     }
-    return any;
+    return least < 1e300;
 }
 
 // The place below a point that is so deep in the piece: found if it is on the surface. The ball of this depth
@@ -385,7 +414,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     NearestPlace found(within_mm);
     bool is_proven = false;     // the best one is the nearest
     Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
-    const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<Vec3> {
+    const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<contact::Foot> {
         for (int tries = 0; tries < 2; ++tries) {
             const NearBrick brick(*this, ref);
             const contact::Foot foot = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
@@ -393,7 +422,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
             if (foot.found && std::abs(at_foot.distance_mm) <= kOnSurface) {
                 found.put(foot);
                 is_proven = is_proven || is_nearest(foot);
-                return foot.at_mm;
+                return foot;
             }
             // The shapes of one brick may leave material where another brick has air. Continue from the true
             // surface.
@@ -434,14 +463,13 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     bool all_looked = true;
     Seen seen[2 * kMostSearches + 2];  // start and end points of the searches
     std::size_t count = 0;
-    if (found.best().found) seen[count++] = {found.best().at_mm, found.best().sample.normal};
+    const auto place_of = [](const contact::Foot& foot) -> Seen {
+        return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along};
+    };
+    if (found.best().found) seen[count++] = place_of(found.best());
     contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
-    for (int looked = 0; bricks_near.take(reach(), b, way); ++looked) {
+    while (bricks_near.take(reach(), b, way)) {
         const BrickRef ref = bricks.get(b);
-        if (looked == kMostLooked) {
-            all_looked = false;
-            break;
-        }
         if (is_clear(ref, p, reach())) continue;
         if (way < nearest_box.distance_mm)
             nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
@@ -453,14 +481,16 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
                 break;
             }
             if (++searches > kMostSearches) break;
-            const std::optional<Vec3> foot = search(ref, start.at);
+            const std::optional<contact::Foot> foot = search(ref, on_surface(start.at, p));
             if (is_proven) return found.best();
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
             }
+            const Seen end = place_of(*foot);
+            start.along = end.along;
             seen[count++] = start;
-            seen[count++] = {*foot, normalized(p - *foot, {0, 0, 1})};
+            seen[count++] = end;
         }
         if (searches > kMostSearches) {
             all_looked = false;

@@ -109,10 +109,13 @@ struct FieldQuery {
     contact::Foot below(contact::SurfaceSample depth, Vec3 point_mm) const;
     bool is_listed(ShapeId id, Vec3 point_mm) const;
     contact::Foot search_nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;
-    // A point on the surface, and its normal.
+    // A point on the surface, its normal, and the direction of the edge to which a search led from there:
+    // zero if to none.
     struct Seen {
-        Vec3 at, normal;
+        Vec3 at, normal, along;
     };
+    bool is_alike(const Seen& a, const Seen& b) const;
+    Vec3 on_surface(Vec3 shown_mm, Vec3 point_mm) const;
     Seen surface_by(const Brick& brick, int a, int b, int c, Vec3 node_mm) const;
     bool none_nearer(const Seen& place, Vec3 point_mm, double than_mm) const;
     bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Seen> but,
