@@ -21,7 +21,11 @@ struct SurfaceSample {
 struct NearHint {
     Vec3 at_mm;    // a guess at the nearest surface point
     Vec3 from_mm;  // the point that it was for
-    // Seen from proved_at_mm, all of the surface except this place was farther than others_mm; 0: not known.
+    // The next nearest place, if one is known.
+    Vec3 second_mm;
+    bool has_second = false;
+    // Seen from proved_at_mm, all of the surface except these places was farther than others_mm; 0: not
+    // known.
     Vec3 proved_at_mm;
     double others_mm = 0;
     // Tangent planes of the pieces that met there.

@@ -151,7 +151,8 @@ void expect_that_of_plates(int plates) {
                 const double truth = plate.distance_mm(p);
                 if (n == 0) hint.at_mm = hint.from_mm = p;
                 const double known = plate.stock->nearest(p, 2 * radius, hint).distance_mm;
-                contact::NearHint none{p, p, {}, 0, {}};
+                contact::NearHint none;
+                none.at_mm = none.from_mm = p;
                 const double cold = plate.stock->nearest(p, 2 * radius, none).distance_mm;
                 if (truth >= std::min(2 * radius, kReachCells * plate.stock->cell_mm())) continue;
                 ASSERT_NEAR(known, truth, kTruth) << k << " " << walk << " " << n;

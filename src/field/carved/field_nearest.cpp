@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "field/carved/field_query.hpp"
 
@@ -135,25 +136,42 @@ bool FieldQuery::is_nearest(const contact::Foot& foot) const {
     return cone.count > 0 && nearer <= kOnSurface;
 }
 
-// The nearest surface point found so far, and the distance of the next one.
-class NearestPlace {
+// The two nearest places of the surface found so far, and the distance of the next one.
+class NearestPlaces {
   public:
-    explicit NearestPlace(double within_mm)
-        : best_{{within_mm, {0, 0, 1}, 0}, {1e300, 0, 0}, {}}, others_mm_(within_mm) {}
+    explicit NearestPlaces(double within_mm)
+        : best_{{within_mm, {0, 0, 1}, 0}, {1e300, 0, 0}, {}}, second_(best_), others_mm_(within_mm) {}
 
     const contact::Foot& best() const { return best_; }
+    const contact::Foot& second() const { return second_; }
     double distance_mm() const { return best_.sample.distance_mm; }
     double others_mm() const { return others_mm_; }
     void put(const contact::Foot& foot) {
-        const double mm = foot.sample.distance_mm;
-        const bool nearer = mm < distance_mm();
-        if (distance(foot.at_mm, best_.at_mm) > kSameFoot)
-            others_mm_ = std::min(others_mm_, nearer ? distance_mm() : mm);
-        if (nearer) best_ = foot;
+        if (is_same(foot, best_)) {
+            if (is_nearer(foot, best_)) best_ = foot;
+        } else if (is_nearer(foot, best_)) {
+            // What was second, unless it is the place that is the best one now.
+            if (!is_same(foot, second_)) others_mm_ = std::min(others_mm_, second_.sample.distance_mm);
+            second_ = std::exchange(best_, foot);
+        } else if (is_same(foot, second_)) {
+            if (is_nearer(foot, second_)) second_ = foot;
+        } else if (is_nearer(foot, second_)) {
+            others_mm_ = std::min(others_mm_, second_.sample.distance_mm);
+            second_ = foot;
+        } else {
+            others_mm_ = std::min(others_mm_, foot.sample.distance_mm);
+        }
     }
 
   private:
-    contact::Foot best_;
+    static bool is_nearer(const contact::Foot& a, const contact::Foot& b) {
+        return a.sample.distance_mm < b.sample.distance_mm;
+    }
+    static bool is_same(const contact::Foot& a, const contact::Foot& b) {
+        return distance(a.at_mm, b.at_mm) <= kSameFoot;
+    }
+
+    contact::Foot best_, second_;
     double others_mm_;
 };
 
@@ -378,11 +396,16 @@ std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint&
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
     const std::optional<contact::Foot> near = follow(p, hint);
     const contact::Foot foot = near ? *near : search_nearest(p, within_mm, hint);
-    // The margin was proven for all but the place of the hint, which is one of the others after a leap.
-    if (foot.found && hint.others_mm > 0 && !(hint.proved_at_mm == p) && has_leapt(foot, p, hint)) {
-        const double last = distance(hint.from_mm, hint.at_mm) - distance(p, hint.from_mm);
-        hint.others_mm = std::max(0.0, std::min(hint.others_mm - distance(p, hint.proved_at_mm), last));
-        hint.proved_at_mm = p;
+    // The margin was proven for all but two places. Where the second one is the nearest now, the first one is
+    // the second. After a leap to another place, the first one is one of the others.
+    if (foot.found && hint.others_mm > 0 && !(hint.proved_at_mm == p)) {
+        if (hint.has_second && distance(foot.at_mm, hint.second_mm) < distance(foot.at_mm, hint.at_mm)) {
+            hint.second_mm = hint.at_mm;
+        } else if (has_leapt(foot, p, hint)) {
+            const double last = distance(hint.from_mm, hint.at_mm) - distance(p, hint.from_mm);
+            hint.others_mm = std::max(0.0, std::min(hint.others_mm - distance(p, hint.proved_at_mm), last));
+            hint.proved_at_mm = p;
+        }
     }
     if (foot.found) {
         hint.at_mm = foot.at_mm;
@@ -411,7 +434,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
         if (here == there) break;
     }
     // At a cusp: the nearest surface point of each brick that may contain one.
-    NearestPlace found(within_mm);
+    NearestPlaces found(within_mm);
     bool is_proven = false;     // the best one is the nearest
     Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
     const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<contact::Foot> {
@@ -443,14 +466,22 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     search_at(hint.at_mm + (p - hint.from_mm));
     if (shown_beyond(lower.distance_mm)) return found.best();
     // Material only ever disappears: surface that was farther away a short time ago still is. What was found
-    // must be the place of the hint: not beyond the point that was nearest there.
-    if (hint.others_mm > 0 && found.distance_mm() <= distance(p, hint.at_mm) + kOnSurface &&
-        shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm)))
-        return found.best();
+    // must be a place of the hint: not beyond the point that was nearest there.
+    if (hint.others_mm > 0) {
+        double known_mm = distance(p, hint.at_mm);
+        if (hint.has_second) {
+            search_at(hint.second_mm);
+            known_mm = std::min(known_mm, distance(p, hint.second_mm));
+        }
+        if (found.distance_mm() <= known_mm + kOnSurface &&
+            shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm)))
+            return found.best();
+    }
     // In a corner of the material both sides are near.
     if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
     if (shown_beyond(lower.distance_mm)) return found.best();
     hint.others_mm = 0;
+    hint.has_second = false;
     bool doubt = false;
     // Search the bricks from the nearest one on, which are the most likely. Up to `proven` no other brick can
     // be nearer.
@@ -503,6 +534,8 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
         if (all_looked && !doubt && found.best().found) {
             hint.proved_at_mm = p;
             hint.others_mm = std::min({found.others_mm(), reach(), proven});
+            hint.has_second = found.second().found;
+            hint.second_mm = found.second().at_mm;
         }
         return found.best();
     }
