@@ -30,6 +30,8 @@ struct NearHint {
     double others_mm = 0;
     // Tangent planes of the pieces that met there.
     HalfSpaces sides;
+    // Searches along the surface that the queries with this hint have made. Each takes some microseconds.
+    long searches = 0;
 };
 
 // Distances in mm, negative inside material. Implementations answer in bounded time without allocation or

@@ -330,6 +330,8 @@ bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::s
     for (int c = low(q.z); c <= high(q.z); ++c) {
         for (int b = low(q.y); b <= high(q.y); ++b) {
             const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
+            const double row = std::min(least, most) + close;
+            if (yz * cell_mm * cell_mm >= row * row) continue;
             for (int a = low(q.x); a <= high(q.x); ++a) {
                 const double d =
                     static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
@@ -439,6 +441,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
     const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<contact::Foot> {
         for (int tries = 0; tries < 2; ++tries) {
+            ++hint.searches;
             const NearBrick brick(*this, ref);
             const contact::Foot foot = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
             const contact::SurfaceSample at_foot = sample(foot.at_mm);

@@ -112,7 +112,8 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     if (phase_ == Phase::touching && stuck_s_ >= kStuckS) release_stuck_proxy(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
     if (phase_ == Phase::touching) renew_anchor();
-    for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
+    const long most = gap_.searches() + kMostSearches;
+    for (Next next = Next::more; next == Next::more && budget(kStepQueries) && gap_.searches() < most;) {
         switch (phase_) {
             case Phase::begin:
             case Phase::climb:

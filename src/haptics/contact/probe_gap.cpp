@@ -35,7 +35,9 @@ ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& 
         // Beyond this nothing is asked exactly: a lower bound serves.
         const double within = 2 * radius_;
         if (near.sides.count == 0) near.at_mm = near.from_mm = at;
+        const long before = near.searches;
         s = field.nearest(at, within, near);
+        searches_ += near.searches - before;
     } else {
         s = field.sample(at);
     }

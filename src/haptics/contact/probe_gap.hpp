@@ -50,8 +50,9 @@ class ProbeGap {
     double clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm,
                         bool over_touch = false);
     Vec3 offset_mm(std::size_t ball) const { return ball_[ball].offset; }
-    // Queries of the field so far.
+    // Queries of the field so far, and searches along the surface that they needed (contact::NearHint).
     long queries() const { return queries_; }
+    long searches() const { return searches_; }
 
   private:
     struct Ball {
@@ -69,7 +70,7 @@ class ProbeGap {
     double radius_;
     std::array<Ball, kMostBalls> ball_;
     std::size_t count_ = 1, last_ = 0;
-    long queries_ = 0;
+    long queries_ = 0, searches_ = 0;
 };
 
 }  // namespace tribo::haptics
