@@ -92,7 +92,7 @@ class FieldContact {
     static constexpr int kEndQueries = 20;
     // After so many searches along the surface no further step begins in a tick. A ball about as wide as the
     // cutter was needs many.
-    static constexpr long kMostSearches = 40;
+    static constexpr long kMostSearches = 150;
     // A place of the proxy on the surface.
     struct Place {
         Vec3 proxy, normal{0, 0, 1};
