@@ -193,12 +193,12 @@ Stroke one_stroke(const field::CarvedField& field, double edge_mm, double radius
     return s;
 }
 
-// Each tick's least of three: the stroke is the same, what else the machine does is not.
-Stroke stroke(const field::CarvedField& field, double edge_mm, double radius_mm, double friction,
-              bool exact) {
+// Each tick's least of so many: the stroke is the same, what else the machine does is not.
+Stroke stroke(const field::CarvedField& field, double edge_mm, double radius_mm, double friction, bool exact,
+              int times = 3) {
     std::vector<double> us;
     Stroke s;
-    for (int n = 0; n < 3; ++n) s = one_stroke(field, edge_mm, radius_mm, friction, exact, us);
+    for (int n = 0; n < times; ++n) s = one_stroke(field, edge_mm, radius_mm, friction, exact, us);
     s.tick = quantiles(us);
     s.tick.p50 -= s.empty.p50;
     s.tick.p99 -= s.empty.p50;
@@ -244,6 +244,8 @@ void measure_contact(Report& report) {
     add_times(report, "contact tick, straight sweeps, 0.5 mm ball", ball, 2, 10, 6.0, 66);
     add_times(report, "contact tick, straight sweeps, 2 mm ball", stroke(*small, 100, 2, 0, false), 2, 10, 0,
               0);
+    add_times(report, "contact tick, straight sweeps, ball as wide as the cutter",
+              stroke(*small, 100, kBall, 0, false, 1), 2, 10, 0, 0);
     const auto large = straight_grooves(200);
     const Stroke wide = stroke(*large, 200, 0, 0, true);
     report.add(

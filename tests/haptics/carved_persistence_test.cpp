@@ -206,6 +206,30 @@ TEST(CarvedPersistence, a_probe_that_has_gone_behind_a_plate_is_not_let_go) {
     }
 }
 
+// A ball that fits the grooves of its cutter is near to much of the surface: it is not left behind all the
+// same.
+TEST(CarvedPersistence, a_ball_as_wide_as_the_cutter_keeps_up_with_the_hand) {
+    constexpr double kCutter = 1, kPitch = 0.4, kDeep = 0.5;
+    const double height = kCutter - std::sqrt(kCutter * kCutter - 0.25 * kPitch * kPitch);
+    const Milled m = scalloped_plate(kPitch, height, 2, 40, 0.3 * kPitch);
+    for (const double radius : {0.98 * kCutter, kCutter, 1.02 * kCutter}) {
+        ContactOptions options;
+        options.probe_radius_mm = radius;
+        FieldContact contact(*m.field, options);
+        const double top = m.strokes_mm.max.z + radius;
+        contact.update({6, 6, top + 0.1});
+        for (int n = 0; n < 400; ++n) {
+            const double way = 0.1 * n;
+            const Vec3 probe{folded(6 + way * std::cos(0.7), 4, 12), folded(6 + way * std::sin(0.7), 4, 12),
+                             top + std::max(0.1 - 0.02 * n, -kDeep)};
+            const ProbeContact felt = contact.update(probe);
+            ASSERT_LT(length(felt.force_n), 1.5 * options.stiffness_n_per_mm * kDeep) << radius << " " << n;
+            ASSERT_LT(std::hypot(felt.proxy_mm.x - probe.x, felt.proxy_mm.y - probe.y), kPitch)
+                << radius << " " << n;
+        }
+    }
+}
+
 // A finger and a stylus lean and turn while they are drawn over milled grooves: no point of them comes to
 // stand in material, and where one would, the surface pushes back.
 TEST(CarvedPersistence, no_point_of_a_finger_or_stylus_goes_through) {
