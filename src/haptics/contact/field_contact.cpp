@@ -94,10 +94,6 @@ ProbeContact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) no
     return tick(probe, turned_mm > 0);
 }
 
-ProbeContact FieldContact::update(Vec3 probe) noexcept {
-    return tick(probe, false);
-}
-
 ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     queries_ = 0;
     if (!is_finite(probe)) return {};

@@ -63,7 +63,7 @@ class FieldContact {
 
     // One tick with the probe at `probe_mm`. If the position is not finite the proxy stays and the force is
     // 0.
-    ProbeContact update(Vec3 probe_mm) noexcept;
+    ProbeContact update(Vec3 probe_mm) noexcept { return tick(probe_mm, false); }
     // The same for a probe of several balls (ProbeGap). `balls_mm` are their current offsets from the probe
     // position.
     ProbeContact update(Vec3 probe_mm, std::span<const Vec3> balls_mm) noexcept;
