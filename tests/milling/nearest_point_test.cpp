@@ -8,6 +8,7 @@
 #include "base/noise_hash.hpp"
 #include "field/carved/carved_field.hpp"
 #include "field/shape/box_shape.hpp"
+#include "haptics/milled_field.hpp"
 #include "milling/sweep/sweep.hpp"
 #include "motion/path/moves.hpp"
 
@@ -77,6 +78,7 @@ TEST(NearestPoint, is_that_of_the_closed_form_wherever_the_point_wanders) {
 // Grooves of a ball along y, `pitch` apart and as deep as leaves cusps of `height`, all over a plate and its
 // edges. Far from its ends along y the distance to it is that to a profile in the plane of x and z.
 struct Plate {
+    static constexpr int kPasses = 16;
     double pitch, radius, bottom, width;
     std::unique_ptr<field::CarvedField> stock;
 
@@ -84,30 +86,17 @@ struct Plate {
         : pitch(pitch_mm),
           radius((0.25 * pitch * pitch + height_mm * height_mm) / (2 * height_mm)),
           bottom(-2 * height_mm),
-          width(16 * pitch),
-          stock(std::make_unique<field::CarvedField>(
-              std::make_unique<field::BoxShape>(Box3{{0, 0, bottom - 2 * pitch}, {width, width, 0}}),
-              cell_mm)) {
-        Cutter cutter;
-        cutter.kind = CutterKind::ball;
-        cutter.diameter_mm = 2 * radius;
-        cutter.length_mm = 8 * radius;
-        for (int n = -1; n <= 17; ++n) {
-            motion::Move move;
-            move.start.tip_mm = {n * pitch, -2 * radius, bottom};
-            move.end.tip_mm = {n * pitch, width + 2 * radius, bottom};
-            stock->carve(make_sweep(cutter, move));
-        }
-    }
+          width(kPasses * pitch),
+          stock(haptics::test::scalloped_plate(pitch, height_mm, 2 * pitch, kPasses, cell_mm).field) {}
     // From a point above the plate's underside: the cusps, the upper edges of both sides, the arcs that face
     // the point, and the sides where it is below those edges.
     double distance_mm(Vec3 p) const {
         const double centre_z = bottom + radius;
         const double cusp_z = centre_z - std::sqrt(radius * radius - 0.25 * pitch * pitch);
         double least = 1e9;
-        for (int n = 0; n <= 16; ++n) {
+        for (int n = 0; n <= kPasses; ++n) {
             const double x = n * pitch, across = p.x - x, from_axis = std::hypot(across, p.z - centre_z);
-            if (n < 16) least = std::min(least, std::hypot(across - 0.5 * pitch, p.z - cusp_z));
+            if (n < kPasses) least = std::min(least, std::hypot(across - 0.5 * pitch, p.z - cusp_z));
             const double foot = across / from_axis * radius;
             if (p.z < centre_z && std::abs(foot) <= 0.5 * pitch && x + foot >= 0 && x + foot <= width)
                 least = std::min(least, std::abs(radius - from_axis));

@@ -21,7 +21,8 @@ constexpr double kNoStep = 1e-6;
 constexpr int kMostReach = 6;
 // Searches for one point, and in one brick.
 constexpr int kMostSearches = 24, kMostStarts = 10;
-// Two starts this near to each other, in cells, lead to the same place; along an edge this near.
+// Two starts of searches lead to the same place if they are this near to each other, in cells: in any
+// direction, or beside and along the edge at which one of them ended.
 constexpr double kOneStart = 0.75, kAlongEdge = 6;
 // Steps from a place that the grid shows down to the surface.
 constexpr int kMostDown = 8;
@@ -287,7 +288,7 @@ bool FieldQuery::is_alike(const Seen& a, const Seen& b) const {
 
 // Over a cusp the grid shows a place in the air between its sides. Returns the surface behind it, seen from
 // the point.
-Vec3 FieldQuery::on_surface(Vec3 shown, Vec3 p) const {
+Vec3 FieldQuery::surface_behind(Vec3 shown, Vec3 p) const {
     const Vec3 ray = normalized(shown - p, Vec3{});
     for (int n = 0; n < kMostDown; ++n) {
         const double air_mm = distance_mm(shown);
@@ -297,9 +298,9 @@ Vec3 FieldQuery::on_surface(Vec3 shown, Vec3 p) const {
     return shown;
 }
 
-// Finds the place on the surface of a brick that is nearest to a point, as far as the nodes show it. It may
-// be that of a point of the surface less than `within_mm` away, and is not alike to any of `but`. Returns
-// false if there is none.
+// Finds the place on the surface of a brick that is nearest to a point, as the nodes show it. Leaves out
+// places near which no surface is less than `within_mm` away, and those alike to one of `but`. Returns false
+// if there is none.
 bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Seen> but,
                               Seen& place) const {
     const auto is_seen = [&](const Seen& s) {
@@ -515,7 +516,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
                 break;
             }
             if (++searches > kMostSearches) break;
-            const std::optional<contact::Foot> foot = search(ref, on_surface(start.at, p));
+            const std::optional<contact::Foot> foot = search(ref, surface_behind(start.at, p));
             if (is_proven) return found.best();
             if (!foot) {
                 doubt = true;

@@ -83,6 +83,7 @@ struct FieldQuery {
         return {-s.distance_mm, -s.gradient, id};
     }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
+    // As in contact::DistanceField, up to 6 bricks away (42 cells); farther away a lower bound.
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm,
                                    contact::NearHint& hint) const;  // field_nearest.cpp
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
@@ -115,7 +116,7 @@ struct FieldQuery {
         Vec3 at, normal, along;
     };
     bool is_alike(const Seen& a, const Seen& b) const;
-    Vec3 on_surface(Vec3 shown_mm, Vec3 point_mm) const;
+    Vec3 surface_behind(Vec3 shown_mm, Vec3 point_mm) const;
     Seen surface_by(const Brick& brick, int a, int b, int c, Vec3 node_mm) const;
     bool none_nearer(const Seen& place, Vec3 point_mm, double than_mm) const;
     bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Seen> but,

@@ -49,8 +49,8 @@ constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
 // So often a proxy in material is pushed out; in a corner of bent sides each push takes most of the depth.
 constexpr int kMostPushes = 8;
-constexpr int kMostLinks = 24;  // of a chain of balls
-constexpr long kDearSearches = 4;
+constexpr int kMostLinks = 24;       // of a chain of balls
+constexpr long kCostlySearches = 4;  // of a measurement
 // A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
 // the probe is in air.
 constexpr double kCreeping = 0.02, kStuckS = 3e-3;
@@ -545,8 +545,8 @@ bool FieldContact::tie(const Place& to) {
         const Vec3 at = to.proxy + height * up;
         const Anchor a{at, clearance_mm(at, height, true)};
         if (reaches_down(a, to.proxy, kTouches * height)) {
-            // A ball about as wide as the cutter was is dear to measure: lower ones are not.
-            height_ = gap_.searches() - searches > kDearSearches ? 0.5 * height : height;
+            // Over grooves of about the ball's radius a high anchor is costly to measure, a low one is not.
+            height_ = gap_.searches() - searches > kCostlySearches ? 0.5 * height : height;
             return chain(a);
         }
         // Another side is near, one that the step has left or comes to: there is room only away from it too.
