@@ -20,10 +20,10 @@ constexpr double kNoStep = 1e-6;
 // Largest number of bricks on each side in a search for the nearest surface.
 constexpr int kMostReach = 6;
 // Searches for one point, and in one brick.
-constexpr int kMostSearches = 8, kMostStarts = 3;
+constexpr int kMostSearches = 16, kMostStarts = 5;
 // Two starts of searches lead to the same place if they are this near to each other, in cells: in any
 // direction, or, where one of them ended at an edge, so far beside it and so far along it.
-constexpr double kOneStart = 2, kOneBeside = 1, kAlongEdge = 6;
+constexpr double kOneStart = 2, kOneBeside = 0.75, kAlongEdge = 6;
 // Steps from a place that the grid shows down to the surface.
 constexpr int kMostDown = 8;
 // kOneWay: two surface points are on different sides if the product of their normals is less. kOneSlope:
@@ -39,7 +39,7 @@ constexpr double kAround = 0.87, kBulge = 0.1;
 constexpr double kOfInnerBall = 0.9;
 // Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
 // may pass over the cusp beside the start.
-constexpr double kLongestCells = 1;
+constexpr double kLongestCells = 0.65;
 
 // Returns the gradient of the distances at a node by their differences, in mm per cell.
 Vec3 slope_at(const Brick& brick, int a, int b, int c) {
