@@ -21,39 +21,43 @@ constexpr double kStill = 5e-6;
 constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance. A bend is too great from this share of the bend of a
 // sphere on: nearly round about the point, a hollow tells no way to its nearest place.
-constexpr double kBendStep = 1e-3, kTooBent = 0.98;
+constexpr double kBendStep = 1e-3, kTooBent = 0.9;
 // A side that is this share of a way behind does not come near over the way.
 constexpr double kBehind = 0.1;
 // Bends along an edge are measured over steps of this share along it, and at least this long beside the way
 // to the point: over shorter ones the normals of searched sweeps tell of their errors.
 constexpr double kAlong = 0.9, kLeastAlong = 0.0025;
 
+// Goes down to the surface along the normals. Returns the sample there, if it comes so far.
+std::optional<SurfaceSample> land(const DistanceField& field, Vec3& q) {
+    constexpr int kMostLandings = 6;
+    for (int n = 0; n < kMostLandings; ++n) {
+        const SurfaceSample s = field.sample(q);
+        if (std::abs(s.distance_mm) <= kOnSurface) return s;
+        q -= s.distance_mm * s.normal;
+    }
+    return std::nullopt;
+}
+
 // For places where the planes do not agree (normals of swept edges jump): follows the surface as long as the
 // distance falls.
 Foot descend(const DistanceField& field, Vec3 point_mm, Vec3 start_mm) {
-    constexpr int kMostSteps = 24, kMostLandings = 6;
-    constexpr double kShortest = 1e-3;  // least share of the full step
-    const auto land = [&](Vec3 q, SurfaceSample& s) -> std::optional<Vec3> {
-        for (int n = 0; n < kMostLandings; ++n) {
-            s = field.sample(q);
-            if (std::abs(s.distance_mm) <= kOnSurface) return q;
-            q -= s.distance_mm * s.normal;
-        }
-        return std::nullopt;
-    };
-    SurfaceSample s, seen;
-    const auto first = land(start_mm, s);
+    constexpr int kMostSteps = 24;
+    constexpr double kShortest = 1e-3, kLongest = 256;  // shares of the step on a plane: a hollow needs more
+    Vec3 q = start_mm;
+    const auto first = land(field, q);
     if (!first) return {field.sample(point_mm), start_mm, {}, false};
-    Vec3 q = *first;
+    SurfaceSample s = *first;
     double share = 1;
     for (int n = 0; n < kMostSteps && share > kShortest; ++n) {
         const Vec3 way = point_mm - q, along = way - dot(way, s.normal) * s.normal;
-        if (squared_length(along) <= 2 * kStill * length(way)) break;
-        const auto next = land(q + share * along, seen);
-        if (next && squared_length(point_mm - *next) < squared_length(way) - kOnSurface * kOnSurface) {
-            q = *next;
-            s = seen;
-            share = std::min(1.0, 2 * share);
+        if (std::max(1.0, share) * squared_length(along) <= 2 * kStill * length(way)) break;
+        Vec3 next = q + share * along;
+        const auto seen = land(field, next);
+        if (seen && squared_length(point_mm - next) < squared_length(way) - kOnSurface * kOnSurface) {
+            q = next;
+            s = *seen;
+            share = std::min(kLongest, 2 * share);
         } else {
             share *= 0.5;
         }
@@ -176,6 +180,20 @@ Vec3 steepest_bend(const DistanceField& field, const Foot& foot) {
     return (-1 / least) * normalized(e, u);
 }
 
+// Goes from a place along the surface of a hollow, in steps, as long as it comes nearer to the point.
+Vec3 out_of_hollow(const DistanceField& field, Vec3 point_mm, Vec3 q, Vec3 step_mm) {
+    constexpr int kMostSteps = 24;
+    for (int n = 0; n < kMostSteps; ++n) {
+        Vec3 next = q + step_mm;
+        const auto seen = land(field, next);
+        if (!seen || squared_length(point_mm - next) >= squared_length(point_mm - q)) break;
+        q = next;
+        const Vec3 on = step_mm - dot(step_mm, seen->normal) * seen->normal;
+        step_mm = length(step_mm) * normalized(on, Vec3{});
+    }
+    return q;
+}
+
 }  // namespace
 
 SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& hint) const {
@@ -192,18 +210,22 @@ SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& 
 }
 
 Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
-    const Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {});
-    if (!foot.found) return descend(field, point_mm, foot.at_mm);
-    if (foot.sides.count != 1) return foot;
+    Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {});
+    if (!foot.found) foot = descend(field, point_mm, foot.at_mm);
+    if (!foot.found || foot.sides.count > 1) return foot;
     // If a hollow is narrower than the distance of the point over it, the foot point at its bottom is the
     // farthest place there. The nearest places are up its sides.
     const Vec3 aside = steepest_bend(field, foot);
     if (squared_length(aside) == 0) return foot;
+    const Vec3 step = std::min(1.0, longest_mm / length(aside)) * aside;
     Foot best = foot;
     for (const double side : {-1.0, 1.0}) {
-        const Vec3 start = foot.at_mm + side * aside;
+        const Vec3 start = out_of_hollow(field, point_mm, foot.at_mm, side * step);
         Foot other = foot_from(field, point_mm, start, longest_mm, {});
-        if (!other.found) other = descend(field, point_mm, other.at_mm);
+        if (!other.found || other.sides.count <= 1) {
+            const Foot on = descend(field, point_mm, other.at_mm);
+            if (!other.found || (on.found && on.sample.distance_mm < other.sample.distance_mm)) other = on;
+        }
         if (other.found && other.sample.distance_mm < best.sample.distance_mm) best = other;
     }
     return best;

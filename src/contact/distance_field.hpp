@@ -21,15 +21,20 @@ struct SurfaceSample {
 struct NearHint {
     Vec3 at_mm;    // a guess at the nearest surface point
     Vec3 from_mm;  // the point that it was for
-    // The next nearest place, if one is known.
+    // The next nearest place, if one is known, and its least distance from proved_at_mm.
     Vec3 second_mm;
+    double second_far_mm = 0;
     bool has_second = false;
     // Seen from proved_at_mm, all of the surface except these places was farther than others_mm; 0: not
     // known.
     Vec3 proved_at_mm;
     double others_mm = 0;
-    // Tangent planes of the pieces that met there.
+    // Until it has moved so far from there, no other place can come to be nearest in its neighbourhood.
+    double settled_mm = 0;
+    // Tangent planes of the pieces that met there. is_shallow: there is one, and the distance to it is less
+    // than the way.
     HalfSpaces sides;
+    bool is_shallow = false;
     // Searches along the surface that the queries with this hint have made. Each takes some microseconds.
     long searches = 0;
 };

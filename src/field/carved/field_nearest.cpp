@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "field/carved/field_query.hpp"
+#include "field/carved/shown_surface.hpp"
 
 namespace tribo::field {
 namespace {
@@ -20,43 +21,18 @@ constexpr double kNoStep = 1e-6;
 // Largest number of bricks on each side in a search for the nearest surface.
 constexpr int kMostReach = 6;
 // Searches for one point, and in one brick.
-constexpr int kMostSearches = 16, kMostStarts = 5;
-// Two starts of searches lead to the same place if they are this near to each other, in cells: in any
-// direction, or, where one of them ended at an edge, so far beside it and so far along it.
-constexpr double kOneStart = 2, kOneBeside = 0.75, kAlongEdge = 6;
+constexpr int kMostSearches = 24, kMostStarts = 10;
 // Steps from a place that the grid shows down to the surface.
 constexpr int kMostDown = 8;
-// kOneWay: two surface points are on different sides if the product of their normals is less. kOneSlope:
-// distances come from one side if they rise by at least this share of the full slope.
-constexpr double kOneWay = 0.5, kOneSlope = 0.97;
 // Nearest places that are this far apart are two places, mm; how much farther than the nearest one others are
 // searched.
 constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
-// The surface that a node represents: radius around it, and largest bulge, in cells.
-constexpr double kAround = 0.87, kBulge = 0.1;
 // A ball at a surface point is proven to be air by balls in the shapes that meet there, larger by the inverse
 // of this share.
 constexpr double kOfInnerBall = 0.9;
 // Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
 // may pass over the cusp beside the start.
 constexpr double kLongestCells = 0.65;
-
-// Returns the gradient of the distances at a node by their differences, in mm per cell.
-Vec3 slope_at(const Brick& brick, int a, int b, int c) {
-    const auto at = [&](int i, int j, int k) {
-        return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(i, j, k))]);
-    };
-    const auto up = [](int n) { return std::min(n + 1, kBrickCells); };
-    const auto down = [](int n) { return std::max(n - 1, 0); };
-    return {(at(up(a), b, c) - at(down(a), b, c)) / (up(a) - down(a)),
-            (at(a, up(b), c) - at(a, down(b), c)) / (up(b) - down(b)),
-            (at(a, b, up(c)) - at(a, b, down(c))) / (up(c) - down(c))};
-}
-
-Vec3 clamped(const Box3& box, Vec3 p) {
-    return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
-            std::clamp(p.z, box.min.z, box.max.z)};
-}
 
 // Whether the nearest place is another one than that of the hint, and not the same that has slid on.
 bool has_leapt(const contact::Foot& foot, Vec3 p, const contact::NearHint& hint) {
@@ -65,6 +41,22 @@ bool has_leapt(const contact::Foot& foot, Vec3 p, const contact::NearHint& hint)
     const Vec3 before = normalized(hint.from_mm - hint.at_mm, foot.sample.normal);
     return dot(before, foot.sample.normal) < kTurned ||
            distance(foot.at_mm, hint.at_mm) > kSameFoot + kSlides * distance(p, hint.from_mm);
+}
+
+// The margin of a hint was proven for all but two places. Where the second one is the nearest now, the first
+// one is the second. After a leap to another place, the first one is one of the others.
+void keep_margin(const contact::Foot& foot, Vec3 p, contact::NearHint& hint) {
+    if (hint.others_mm <= 0 || hint.proved_at_mm == p) return;
+    const double moved = distance(p, hint.proved_at_mm), last = distance(hint.from_mm, hint.at_mm);
+    if (hint.has_second && distance(foot.at_mm, hint.second_mm) < distance(foot.at_mm, hint.at_mm)) {
+        hint.second_mm = hint.at_mm;
+        hint.second_far_mm = last - distance(hint.from_mm, hint.proved_at_mm);
+    } else if (has_leapt(foot, p, hint)) {
+        hint.others_mm = std::max(0.0, std::min(hint.others_mm - moved, last - distance(p, hint.from_mm)));
+        hint.second_far_mm -= moved;
+        hint.settled_mm -= moved;
+        hint.proved_at_mm = p;
+    }
 }
 
 // The material according to the brick around a point. If that brick is air or does not exist, one given brick
@@ -254,42 +246,10 @@ class FieldQuery::Candidates {
     double seen_mm_ = 0;
 };
 
-// Returns the surface near a node and its normal there: from the grid or, near corners, from the shape that
-// gives the distance.
-FieldQuery::Seen FieldQuery::surface_by(const Brick& brick, int a, int b, int c, Vec3 node) const {
-    const auto index = static_cast<std::size_t>(node_index(a, b, c));
-    const auto d = static_cast<double>(brick.distance_mm[index]);
-    Vec3 rise = slope_at(brick, a, b, c);
-    const double steep = length(rise);
-    if (steep > kOneSlope * cell_mm) {
-        rise = (1 / steep) * rise;
-    } else {
-        const std::uint16_t shape = brick.winner[index];
-        rise = outward(shape == Brick::kUnlisted ? 0 : brick.shapes[shape], node);
-    }
-    return {node - d * rise, rise, {}};
-}
-
-// Returns true if the surface that a place represents is nowhere nearer to the point than `than_mm`.
-bool FieldQuery::none_nearer(const Seen& place, Vec3 p, double than_mm) const {
-    const Vec3 way = p - place.at;
-    const double over = dot(way, place.normal), aside = length(way - over * place.normal);
-    const double side = std::max(0.0, aside - kAround * cell_mm), up = std::max(0.0, over - kBulge * cell_mm);
-    return side * side + up * up >= than_mm * than_mm;
-}
-
-// Returns true if searches from both places lead to the same one. Surface that faces another way is the other
-// side of a corner.
-bool FieldQuery::is_alike(const Seen& a, const Seen& b) const {
-    const Vec3 off = (b.at - a.at) * per_cell, aside = off - dot(off, a.along) * a.along;
-    const double near = squared_length(a.along) > 0 ? kOneBeside : kOneStart;
-    return squared_length(aside) < near * near && squared_length(off) < kAlongEdge * kAlongEdge &&
-           dot(a.normal, b.normal) > kOneWay;
-}
-
 // Over a cusp the grid shows a place in the air between its sides. Returns the surface behind it, seen from
 // the point.
-Vec3 FieldQuery::surface_behind(Vec3 shown, Vec3 p) const {
+Vec3 FieldQuery::surface_behind(const SeenPlace& place, Vec3 p) const {
+    Vec3 shown = place.at;
     const Vec3 ray = normalized(shown - p, Vec3{});
     for (int n = 0; n < kMostDown; ++n) {
         const double air_mm = distance_mm(shown);
@@ -297,58 +257,6 @@ Vec3 FieldQuery::surface_behind(Vec3 shown, Vec3 p) const {
         shown += air_mm * ray;
     }
     return shown;
-}
-
-// Finds the place on the surface of a brick that is nearest to a point, as the nodes show it. Leaves out
-// places near which no surface is less than `within_mm` away, and those alike to one of `but`. Returns false
-// if there is none.
-bool FieldQuery::near_surface(BrickCoord where, Vec3 p, double within_mm, std::span<const Seen> but,
-                              Seen& place) const {
-    const auto is_seen = [&](const Seen& s) {
-        return std::any_of(but.begin(), but.end(), [&](const Seen& other) { return is_alike(other, s); });
-    };
-    const BrickRef ref = bricks.get(where);
-    if (ref == kUntouched) {
-        // Where the blank begins at the face of the brick, its surface is in a nearer one.
-        const Box3 here = box(where);
-        const Vec3 face = clamped(here, p);
-        const double outside = blank().distance_mm(face);
-        if (outside < 0) return false;
-        const Vec3 normal = blank().gradient(face), at = face - outside * normal;
-        place = {at, normal, {}};
-        return distance(clamped(here, at), at) <= kOnSurface && !is_seen(place);
-    }
-    const Brick& brick = (*pool)[ref];
-    const Lattice nodes = lattice(where);
-    const Vec3 q = (p - nodes.node(0, 0, 0)) * per_cell;
-    // No point of the surface is farther than this from every node.
-    const double close = (kClearCells + kRounding) * cell_mm, reach = within_mm * per_cell + kClearCells;
-    const double most = within_mm + kAround * cell_mm;
-    double least = 1e300;
-    const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
-    const auto high = [&](double at) {
-        return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
-    };
-    for (int c = low(q.z); c <= high(q.z); ++c) {
-        for (int b = low(q.y); b <= high(q.y); ++b) {
-            const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
-            const double row = std::min(least, most) + close;
-            if (yz * cell_mm * cell_mm >= row * row) continue;
-            for (int a = low(q.x); a <= high(q.x); ++a) {
-                const double d =
-                    static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
-                if (d > close || d < -close) continue;
-                const double far = std::min(least, most) + std::abs(d);
-                if ((yz + (a - q.x) * (a - q.x)) * cell_mm * cell_mm >= far * far) continue;
-                const Seen here = surface_by(brick, a, b, c, nodes.node(a, b, c));
-                const double mm = distance(here.at, p);
-                if (mm >= least || none_nearer(here, p, within_mm) || is_seen(here)) continue;
-                least = mm;
-                place = here;
-            }
-        }
-    }
-    return least < 1e300;
 }
 
 // The place below a point that is so deep in the piece: found if it is on the surface. The ball of this depth
@@ -378,48 +286,49 @@ bool FieldQuery::is_listed(ShapeId id, Vec3 p) const {
     return std::find(listed.begin(), listed.end(), id) != listed.end();
 }
 
-// The nearest place on the pieces that met at the last one, if it is proven to be the nearest of all.
-std::optional<contact::Foot> FieldQuery::follow(Vec3 p, const contact::NearHint& hint) const {
-    if (hint.sides.count == 0) return std::nullopt;
+// The nearest place on the pieces that met at the last one, and whether it is proven to be the nearest of
+// all.
+FieldQuery::Followed FieldQuery::follow(Vec3 p, const contact::NearHint& hint) const {
+    if (hint.sides.count == 0) return {};
     for (int n = 0; n < hint.sides.count; ++n) {
-        if (!is_listed(hint.sides.side[static_cast<std::size_t>(n)].piece, hint.at_mm)) return std::nullopt;
+        if (!is_listed(hint.sides.side[static_cast<std::size_t>(n)].piece, hint.at_mm)) return {};
     }
     Vec3 start = hint.sides.nearest(p);
     if (hint.sides.count == 1) {
-        const contact::Foot foot = below(sample_piece(hint.sides.side[0].piece, p), p);
-        if (foot.found) return foot;
-        start = foot.at_mm;
+        if (!hint.is_shallow) {
+            const contact::Foot foot = below(sample_piece(hint.sides.side[0].piece, p), p);
+            if (foot.found) return {foot, true, false};
+            start = foot.at_mm;
+        }
     } else if (const auto edge = hint.sides.edge_at(start); squared_length(edge.along) > 0) {
         start = hint.sides.nearest_on_bend(p, edge, start, hint.at_mm);
     }
     const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, hint.sides);
-    if (foot.found && is_nearest(foot)) return foot;
-    return std::nullopt;
+    return {foot, foot.found && is_nearest(foot), hint.sides.count == 1};
 }
 
 contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
-    const std::optional<contact::Foot> near = follow(p, hint);
-    const contact::Foot foot = near ? *near : search_nearest(p, within_mm, hint);
-    // The margin was proven for all but two places. Where the second one is the nearest now, the first one is
-    // the second. After a leap to another place, the first one is one of the others.
-    if (foot.found && hint.others_mm > 0 && !(hint.proved_at_mm == p)) {
-        if (hint.has_second && distance(foot.at_mm, hint.second_mm) < distance(foot.at_mm, hint.at_mm)) {
-            hint.second_mm = hint.at_mm;
-        } else if (has_leapt(foot, p, hint)) {
-            const double last = distance(hint.from_mm, hint.at_mm) - distance(p, hint.from_mm);
-            hint.others_mm = std::max(0.0, std::min(hint.others_mm - distance(p, hint.proved_at_mm), last));
-            hint.proved_at_mm = p;
-        }
-    }
+    const Followed known = follow(p, hint);
+    if (known.is_proven) keep_margin(known.foot, p, hint);
+    const contact::Foot foot = known.is_proven ? known.foot : search_nearest(p, within_mm, hint, known.foot);
     if (foot.found) {
         hint.at_mm = foot.at_mm;
         hint.from_mm = p;
     }
     hint.sides = foot.sides;
+    hint.is_shallow = known.is_shallow;
     return foot.sample;
 }
 
-contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
+contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::NearHint& hint,
+                                         const contact::Foot& known) const {
+    // Material only ever disappears: surface that was farther away a short time ago still is. What was found
+    // must be a place of the hint: not beyond the point that was nearest there.
+    const double moved_mm = distance(p, hint.proved_at_mm);
+    const bool is_settled = hint.others_mm > 0 && moved_mm < hint.settled_mm;
+    if (known.found && is_settled && known.sample.distance_mm <= distance(p, hint.at_mm) + kOnSurface &&
+        known.sample.distance_mm - (std::min(hint.others_mm, hint.second_far_mm) - moved_mm) <= kOnSurface)
+        return known;
     // There is no material inside a shape that was carved. The depth of the point in it is therefore a lower
     // bound of the distance, which a surface point can reach; on a smooth piece one does.
     const BrickCoord here = brick_at(p), there = brick_at(hint.at_mm);
@@ -433,7 +342,10 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
             if (b == here) return {s, p, {}};
             continue;
         }
-        if (const contact::Foot foot = below(s, p); foot.found) return foot;
+        if (const contact::Foot foot = below(s, p); foot.found) {
+            keep_margin(foot, p, hint);
+            return foot;
+        }
         if (s.distance_mm > lower.distance_mm) lower = s;
         if (here == there) break;
     }
@@ -441,7 +353,8 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     NearestPlaces found(within_mm);
     bool is_proven = false;     // the best one is the nearest
     Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
-    const auto search = [&](BrickRef ref, Vec3 from) -> std::optional<contact::Foot> {
+    const auto search = [&](BrickRef ref, Vec3 from) {
+        std::optional<contact::Foot> last;
         for (int tries = 0; tries < 2; ++tries) {
             ++hint.searches;
             const NearBrick brick(*this, ref);
@@ -450,7 +363,11 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
             if (foot.found && std::abs(at_foot.distance_mm) <= kOnSurface) {
                 found.put(foot);
                 is_proven = is_proven || is_nearest(foot);
-                return foot;
+                last = foot;
+                // What was reached by following the surface may be a little off: once more from there.
+                if (foot.sides.count > 0) break;
+                from = foot.at_mm;
+                continue;
             }
             // The shapes of one brick may leave material where another brick has air. Continue from the true
             // surface.
@@ -461,30 +378,45 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
             if (!bricks.contains(b) || bricks.get(b) == kAir) break;
             ref = bricks.get(b);
         }
-        return std::nullopt;
+        return last;
     };
     const auto search_at = [&](Vec3 from) {
         const BrickCoord b = brick_at(from);
         if (bricks.contains(b) && bricks.get(b) != kAir) (void)search(bricks.get(b), from);
     };
     const auto shown_beyond = [&](double mm) { return is_proven || found.distance_mm() - mm <= kOnSurface; };
-    search_at(hint.at_mm + (p - hint.from_mm));
-    if (shown_beyond(lower.distance_mm)) return found.best();
-    // Material only ever disappears: surface that was farther away a short time ago still is. What was found
-    // must be a place of the hint: not beyond the point that was nearest there.
-    if (hint.others_mm > 0) {
+    if (known.found)
+        found.put(known);
+    else
+        search_at(hint.at_mm + (p - hint.from_mm));
+    if (shown_beyond(lower.distance_mm)) {
+        keep_margin(found.best(), p, hint);
+        return found.best();
+    }
+    if (is_settled) {
         double known_mm = distance(p, hint.at_mm);
+        const contact::Foot first = found.best();
+        bool are_two = true;
         if (hint.has_second) {
             search_at(hint.second_mm);
             known_mm = std::min(known_mm, distance(p, hint.second_mm));
+            are_two = first.found && found.second().found;
         }
-        if (found.distance_mm() <= known_mm + kOnSurface &&
-            shown_beyond(hint.others_mm - distance(p, hint.proved_at_mm)))
+        if (are_two && found.distance_mm() <= known_mm + kOnSurface &&
+            shown_beyond(hint.others_mm - moved_mm)) {
+            if (hint.has_second) {
+                hint.second_mm = found.second().at_mm;
+                hint.second_far_mm = found.second().sample.distance_mm - moved_mm;
+            }
             return found.best();
+        }
     }
     // In a corner of the material both sides are near.
     if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
-    if (shown_beyond(lower.distance_mm)) return found.best();
+    if (shown_beyond(lower.distance_mm)) {
+        keep_margin(found.best(), p, hint);
+        return found.best();
+    }
     hint.others_mm = 0;
     hint.has_second = false;
     bool doubt = false;
@@ -497,10 +429,11 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     double way = 0;
     int searches = 0;
     bool all_looked = true;
-    Seen seen[2 * kMostSearches + 2];  // start and end points of the searches
+    SeenPlace seen[2 * kMostSearches + 2];  // start and end points of the searches
     std::size_t count = 0;
-    const auto place_of = [](const contact::Foot& foot) -> Seen {
-        return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along};
+    ShownSurface shown(*this, p);
+    const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
+        return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along, true};
     };
     if (found.best().found) seen[count++] = place_of(found.best());
     contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
@@ -510,20 +443,21 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
         if (way < nearest_box.distance_mm)
             nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
         // Start where the grid shows the surface, once for each cusp: two cusps in one brick are two places.
-        Seen start;
-        for (int n = 0; near_surface(b, p, reach(), {seen, seen + count}, start); ++n) {
+        shown.look_at(b, reach());
+        SeenPlace start;
+        for (int n = 0; shown.take(reach(), {seen, count}, start); ++n) {
             if (n == kMostStarts) {
                 all_looked = false;
                 break;
             }
             if (++searches > kMostSearches) break;
-            const std::optional<contact::Foot> foot = search(ref, surface_behind(start.at, p));
+            const std::optional<contact::Foot> foot = search(ref, surface_behind(start, p));
             if (is_proven) return found.best();
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
             }
-            const Seen end = place_of(*foot);
+            const SeenPlace end = place_of(*foot);
             start.along = end.along;
             seen[count++] = start;
             seen[count++] = end;
@@ -536,11 +470,15 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     // A search may have failed on surface that the shapes of other bricks removed. This is accepted if
     // another search succeeded.
     if (!(doubt && !found.best().found) && found.distance_mm() <= proven + kOnSurface) {
-        if (all_looked && !doubt && found.best().found) {
+        if (all_looked && shown.is_whole() && !doubt && found.best().found) {
             hint.proved_at_mm = p;
             hint.others_mm = std::min({found.others_mm(), reach(), proven});
+            hint.settled_mm =
+                shown.settled_mm(reach() - found.distance_mm(), place_of(found.best()),
+                                 found.second().found ? place_of(found.second()) : place_of(found.best()));
             hint.has_second = found.second().found;
             hint.second_mm = found.second().at_mm;
+            hint.second_far_mm = hint.has_second ? found.second().sample.distance_mm : hint.others_mm;
         }
         return found.best();
     }

@@ -16,6 +16,13 @@ namespace tribo::field {
 
 using ShapeStore = SteadyArray<std::unique_ptr<const Shape>, 1024>;  // [0] is the blank
 
+struct SeenPlace;
+
+inline Vec3 clamped(const Box3& box, Vec3 p) {
+    return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
+            std::clamp(p.z, box.min.z, box.max.z)};
+}
+
 // Refers to its tables. All functions are const and allocate nothing. Their time is bounded by the number of
 // shapes in a brick (for clearance and nearest also by the number of bricks within reach).
 struct FieldQuery {
@@ -83,6 +90,10 @@ struct FieldQuery {
         return {-s.distance_mm, -s.gradient, id};
     }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
+    // The normal of the material at or near the surface of a shape.
+    Vec3 outward(ShapeId id, Vec3 point_mm) const {
+        return id == 0 ? blank().gradient(point_mm) : -shape(id).gradient(point_mm);
+    }
     // As in contact::DistanceField, up to 6 bricks away (42 cells); farther away a lower bound.
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm,
                                    contact::NearHint& hint) const;  // field_nearest.cpp
@@ -98,29 +109,22 @@ struct FieldQuery {
 
   private:
     class Candidates;
-    Vec3 outward(ShapeId id, Vec3 point_mm) const {
-        return id == 0 ? blank().gradient(point_mm) : -shape(id).gradient(point_mm);
-    }
     double clear_of_nodes(const Brick& brick, Vec3 point_mm) const;
     double clear_among(BrickRef alike, BrickCoord b, Vec3 point_mm, double clear_mm, double enough_mm) const;
     double clear_in_air(BrickCoord b, Vec3 point_mm, double enough_mm) const;
     bool is_clear(BrickRef ref, Vec3 point_mm, double radius_mm) const;
     bool is_nearest(const contact::Foot& foot) const;
-    std::optional<contact::Foot> follow(Vec3 point_mm, const contact::NearHint& hint) const;
+    struct Followed {
+        contact::Foot foot;
+        bool is_proven = false;
+        bool is_shallow = false;  // contact::NearHint
+    };
+    Followed follow(Vec3 point_mm, const contact::NearHint& hint) const;
     contact::Foot below(contact::SurfaceSample depth, Vec3 point_mm) const;
     bool is_listed(ShapeId id, Vec3 point_mm) const;
-    contact::Foot search_nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint) const;
-    // A point on the surface, its normal, and the direction of the edge to which a search led from there:
-    // zero if to none.
-    struct Seen {
-        Vec3 at, normal, along;
-    };
-    bool is_alike(const Seen& a, const Seen& b) const;
-    Vec3 surface_behind(Vec3 shown_mm, Vec3 point_mm) const;
-    Seen surface_by(const Brick& brick, int a, int b, int c, Vec3 node_mm) const;
-    bool none_nearer(const Seen& place, Vec3 point_mm, double than_mm) const;
-    bool near_surface(BrickCoord where, Vec3 point_mm, double within_mm, std::span<const Seen> but,
-                      Seen& place) const;
+    contact::Foot search_nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint,
+                                 const contact::Foot& known) const;
+    Vec3 surface_behind(const SeenPlace& place, Vec3 point_mm) const;
 };
 
 // All contents of a field, at an address that does not change.

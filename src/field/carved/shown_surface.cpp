@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "field/carved/shown_surface.hpp"
+
+#include <algorithm>
+
+namespace tribo::field {
+namespace {
+
+// Two starts of searches lead to the same place if they are this near to each other, in cells: in any
+// direction, or, where one of them ended at an edge, so far beside it and so far along it.
+constexpr double kOneStart = 1, kBesideStart = 0.5, kBesideEnd = 0.75, kAlongEdge = 6;
+// kOneWay: two surface points are on different sides if the product of their normals is less. kOneSlope:
+// distances come from one side if they rise by at least this share of the full slope; or by less, as those in
+// the sweep of a tilted cutter do, but at least kLeastSlope, and evenly to this share of a cell.
+constexpr double kOneWay = 0.5, kOneSlope = 0.97, kLeastSlope = 0.7, kEven = 0.1;
+// The surface that a node represents: radius around it, and largest bulge, in cells.
+constexpr double kAround = 0.87, kBulge = 0.1;
+// Surface between two nodes goes on around no corner if the product of their normals is at least kGoesOn, and
+// has no edge if the normals part by no more than kNoEdge.
+constexpr double kGoesOn = 0.95, kNoEdge = 2e-3;
+// Surface so near to a place that was found belongs to it, in cells: in any direction, or beside an edge.
+constexpr double kOwn = 1.5, kOwnBeside = 0.5;
+// No point of the surface is farther than this from every node, in cells.
+constexpr double kClose = FieldQuery::kClearCells + FieldQuery::kRounding;
+// A place of the blank is in its brick up to this, mm.
+constexpr double kInside = 2e-5;
+
+// How the distances of a brick differ around a node.
+struct Differences {
+    Vec3 slope;  // mm per cell
+    bool even;   // alike on both sides
+};
+
+Differences differences_at(const Brick& brick, int a, int b, int c, double cell_mm) {
+    const auto at = [&](int node) {
+        return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node)]);
+    };
+    const int node = node_index(a, b, c);
+    Differences result{{}, true};
+    const auto along = [&](int n, int stride) {
+        const int first = node - n * stride, low = first + std::max(n - 1, 0) * stride,
+                  high = first + std::min(n + 1, kBrickCells) * stride,
+                  middle = first + std::clamp(n, 1, kBrickCells - 1) * stride;
+        const double bend = at(middle - stride) - 2 * at(middle) + at(middle + stride);
+        result.even = result.even && std::abs(bend) < kEven * cell_mm;
+        return (at(high) - at(low)) * stride / (high - low);
+    };
+    result.slope = {along(a, 1), along(b, kLatticeEdge), along(c, kLatticeEdge * kLatticeEdge)};
+    return result;
+}
+
+}  // namespace
+
+bool is_alike(const SeenPlace& a, const SeenPlace& b, double per_cell) {
+    const Vec3 off = (b.at - a.at) * per_cell, aside = off - dot(off, a.along) * a.along;
+    const double near = squared_length(a.along) > 0 ? (a.ended ? kBesideEnd : kBesideStart) : kOneStart;
+    return squared_length(aside) < near * near && squared_length(off) < kAlongEdge * kAlongEdge &&
+           dot(a.normal, b.normal) > kOneWay;
+}
+
+void ShownSurface::look_at(BrickCoord where, double within_mm) {
+    count_ = 0;
+    const FieldQuery& field = *field_;
+    const BrickRef ref = field.bricks.get(where);
+    if (ref == kUntouched) {
+        // Where the blank begins at the face of the brick, its surface is in a nearer one.
+        const Box3 here = field.box(where);
+        const Vec3 face = clamped(here, point_);
+        const double outside = field.blank().distance_mm(face);
+        if (outside < 0) return;
+        const Vec3 normal = field.blank().gradient(face), at = face - outside * normal;
+        if (distance(clamped(here, at), at) <= kInside)
+            put({{at, normal, {}}, distance(at, point_), where, {-1, 0, 0}});
+        return;
+    }
+    const Brick& brick = (*field.pool)[ref];
+    const double cell_mm = field.cell_mm;
+    const Vec3 q = (point_ - field.lattice(where).node(0, 0, 0)) * field.per_cell;
+    const double reach = within_mm * field.per_cell + FieldQuery::kClearCells;
+    const double most = within_mm + kAround * cell_mm, most_row = most + kClose * cell_mm;
+    const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
+    const auto high = [&](double at) {
+        return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
+    };
+    for (int c = low(q.z); c <= high(q.z); ++c) {
+        for (int b = low(q.y); b <= high(q.y); ++b) {
+            const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
+            if (yz * cell_mm * cell_mm >= most_row * most_row) continue;
+            for (int a = low(q.x); a <= high(q.x); ++a) {
+                const double d =
+                    static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
+                const double far = most + std::abs(d);
+                if (std::abs(d) > kClose * cell_mm ||
+                    (yz + (a - q.x) * (a - q.x)) * cell_mm * cell_mm >= far * far)
+                    continue;
+                ShownPlace one;
+                if (see(where, a, b, c, one) && !none_nearer(one.place, within_mm)) put(one);
+            }
+        }
+    }
+}
+
+void ShownSurface::put(const ShownPlace& one) {
+    if (count_ < here_.size()) {
+        here_[count_++] = one;
+        return;
+    }
+    whole_ = false;
+    ShownPlace& farthest = *std::ranges::max_element(here_, {}, &ShownPlace::way_mm);
+    if (one.way_mm < farthest.way_mm) farthest = one;
+}
+
+// The surface near a node and its normal there: from the grid or, near corners, from the shape that gives the
+// distance. The node may be that of a neighbour. False if there is no surface near it.
+bool ShownSurface::see(BrickCoord where, int a, int b, int c, ShownPlace& shown) const {
+    const auto wrap = [](int& brick, int& node) {
+        if (node < 0 || node > kBrickCells) {
+            brick += node < 0 ? -1 : 1;
+            node += node < 0 ? kBrickCells : -kBrickCells;
+        }
+    };
+    wrap(where.i, a);
+    wrap(where.j, b);
+    wrap(where.k, c);
+    if (!field_->bricks.contains(where)) return false;
+    const BrickRef ref = field_->bricks.get(where);
+    if (ref < kFirstBrick) return false;
+    const Brick& brick = (*field_->pool)[ref];
+    const auto index = static_cast<std::size_t>(node_index(a, b, c));
+    const auto d = static_cast<double>(brick.distance_mm[index]);
+    if (std::abs(d) > kClose * field_->cell_mm) return false;
+    const Vec3 node = field_->lattice(where).node(a, b, c);
+    const auto [slope, even] = differences_at(brick, a, b, c, field_->cell_mm);
+    const double steep = length(slope) * field_->per_cell;
+    const bool corner = !(steep > kOneSlope || (even && steep > kLeastSlope));
+    const std::uint16_t winner = brick.winner[index];
+    const ShapeId shape = winner == Brick::kUnlisted ? 0 : brick.shapes[winner];
+    const Vec3 normal = corner ? normal_at(where, static_cast<int>(index), shape, node)
+                               : normalized(slope, Vec3{0, 0, 1}),
+               at = node - (steep > kOneSlope || corner ? d : d / steep) * normal;
+    shown = {{at, normal, {}, false, shape, corner}, distance(at, point_), where, {a, b, c}};
+    return true;
+}
+
+// Nodes near corners are seen often, once from each node beside them.
+Vec3 ShownSurface::normal_at(BrickCoord brick, int index, ShapeId shape, Vec3 node) const {
+    constexpr unsigned kSpread = 37;
+    const unsigned at =
+        static_cast<unsigned>(index) + kSpread * static_cast<unsigned>(brick.i + 3 * brick.j + 9 * brick.k);
+    KnownNormal& known = known_[at % known_.size()];
+    if (known.index != index || !(known.brick == brick)) known = {brick, index, field_->outward(shape, node)};
+    return known.normal;
+}
+
+// The part of the way from a place to the point that is along the surface there. Over narrow grooves the grid
+// shows means of the normals of both sides; the shape knows its own.
+Vec3 ShownSurface::along_surface(const SeenPlace& place) const {
+    const bool by_shape = !place.corner && !(place.shape != 0 && field_->shape(place.shape).is_searched());
+    const Vec3 normal = by_shape ? field_->outward(place.shape, place.at) : place.normal,
+               way = point_ - place.at;
+    return way - dot(way, normal) * normal;
+}
+
+// Visits the places that nodes beside one show and that are nearer, where from there on the surface goes on
+// to come nearer: with the way to such a place and how steeply it does so there, in mm per mm times the
+// distance.
+template <class Visit>
+void ShownSurface::visit_nearer(const ShownPlace& from, Visit&& visit) const {
+    if (from.node[0] < 0) return;
+    for (int c = -1; c <= 1; ++c) {
+        for (int b = -1; b <= 1; ++b) {
+            for (int a = -1; a <= 1; ++a) {
+                ShownPlace to;
+                if (!see(from.brick, from.node[0] + a, from.node[1] + b, from.node[2] + c, to)) continue;
+                if (to.way_mm >= from.way_mm || dot(to.place.normal, from.place.normal) < kGoesOn) continue;
+                const Vec3 step = to.place.at - from.place.at;
+                const double fall_mm = dot(normalized(step, Vec3{}), along_surface(to.place));
+                if (to.place.corner || fall_mm > 0) visit(to.place, step, fall_mm);
+            }
+        }
+    }
+}
+
+// Whether the surface comes nearer to the point all the way to a place that a node beside this one shows.
+// That place leads where this one does.
+bool ShownSurface::comes_nearer(const ShownPlace& from) const {
+    const SeenPlace& here = from.place;
+    const Vec3 way = along_surface(here);
+    bool nearer = false;
+    visit_nearer(from, [&](const SeenPlace& there, Vec3 step, double) {
+        nearer = nearer || (there.shape == here.shape && dot(step, way) > 0);
+    });
+    if (nearer || here.corner) return nearer;
+    // Another shape goes on where this one ends, if there is no edge between them.
+    visit_nearer(from, [&](const SeenPlace& there, Vec3 step, double) {
+        const double most = kNoEdge * length(step);
+        if (nearer || there.shape == here.shape || dot(step, way) <= 0 ||
+            dot(step, there.normal - here.normal) > most)
+            return;
+        nearer =
+            dot(step, field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at)) <= most;
+    });
+    return nearer;
+}
+
+double ShownSurface::steepest_fall_mm(const ShownPlace& from) const {
+    double most = 0;
+    visit_nearer(from, [&](const SeenPlace&, Vec3, double fall_mm) { most = std::max(most, fall_mm); });
+    return most;
+}
+
+// Returns true if the surface that a place represents is nowhere nearer to the point than `than_mm`.
+bool ShownSurface::none_nearer(const SeenPlace& place, double than_mm) const {
+    const Vec3 way = point_ - place.at;
+    const double over = dot(way, place.normal), aside = length(way - over * place.normal);
+    const double side = std::max(0.0, aside - kAround * field_->cell_mm),
+                 up = std::max(0.0, over - kBulge * field_->cell_mm);
+    return side * side + up * up >= than_mm * than_mm;
+}
+
+bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place) {
+    while (count_ > 0) {
+        ShownPlace& nearest =
+            *std::ranges::min_element(std::span(here_.data(), count_), {}, &ShownPlace::way_mm);
+        const ShownPlace one = nearest;
+        nearest = here_[--count_];
+        if (none_nearer(one.place, within_mm)) continue;
+        if (passed_count_ < passed_.size())
+            passed_[passed_count_++] = one;
+        else
+            whole_ = false;
+        const bool is_seen = std::any_of(but.begin(), but.end(), [&](const SeenPlace& other) {
+            return is_alike(other, one.place, field_->per_cell);
+        });
+        if (is_seen || comes_nearer(one)) continue;
+        place = one.place;
+        return true;
+    }
+    return false;
+}
+
+double ShownSurface::settled_mm(double most_mm, const SeenPlace& nearest, const SeenPlace& second) const {
+    const double nearest_mm = distance(nearest.at, point_);
+    const auto is_of = [&](const SeenPlace& found, Vec3 at) {
+        const bool edge = squared_length(found.along) > 0;
+        const Vec3 off = (at - found.at) * field_->per_cell,
+                   aside = off - dot(off, found.along) * found.along;
+        const double own = edge ? kOwnBeside : kOwn;
+        return squared_length(aside) <= own * own && squared_length(off) <= kOwn * kOwn;
+    };
+    double settled = most_mm;
+    for (const ShownPlace& one : std::span(passed_.data(), passed_count_)) {
+        const double nearer_mm = 0.5 * (one.way_mm - nearest_mm);
+        if (nearer_mm >= settled || is_of(nearest, one.place.at) || is_of(second, one.place.at)) continue;
+        settled = std::min(settled, std::max(nearer_mm, steepest_fall_mm(one)));
+    }
+    return settled;
+}
+
+}  // namespace tribo::field

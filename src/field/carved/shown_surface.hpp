@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The surface in one brick as its nodes show it around a point: where searches for the nearest place start.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "field/carved/field_query.hpp"
+
+namespace tribo::field {
+
+// A place on the surface, as a node shows it or where a search ended.
+struct SeenPlace {
+    Vec3 at, normal;
+    Vec3 along;           // of the edge to which a search led from there; zero if to none
+    bool ended = false;   // a search ended there
+    ShapeId shape = 0;    // that gives the distance at the node
+    bool corner = false;  // the node is near a corner: the place may be in the air before it
+};
+
+// Whether searches from both places lead to the same one. Surface that faces another way is the other side of
+// a corner.
+bool is_alike(const SeenPlace& a, const SeenPlace& b, double per_cell);
+
+// A node near the surface, and the place that it shows.
+struct ShownPlace {
+    SeenPlace place;
+    double way_mm;  // from the point
+    BrickCoord brick;
+    int node[3];  // node[0] < 0: the place is on the face of the blank, not shown by a node
+};
+
+// The surface around a point as the nodes of the bricks show it.
+class ShownSurface {
+  public:
+    ShownSurface(const FieldQuery& field, Vec3 point_mm) : field_(&field), point_(point_mm) {}
+
+    // Sees all places of a brick near which the surface may be less than `within_mm` away from the point, and
+    // forgets those of the brick before that were not taken.
+    void look_at(BrickCoord brick, double within_mm);
+    // Takes the nearest place near which the surface may be less than `within_mm` away, that is not alike to
+    // one of `but`, and from which the surface does not come nearer towards another place. Returns false if
+    // there is none.
+    bool take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place);
+    // False if there were more places than could be kept. The nearest ones are.
+    bool is_whole() const { return whole_; }
+    // How far the point may move, up to `most_mm`, until a place that does not belong to the two nearest ones
+    // may become the nearest of its neighbourhood, and nearer than these.
+    double settled_mm(double most_mm, const SeenPlace& nearest, const SeenPlace& second) const;
+
+  private:
+    void put(const ShownPlace& one);
+    bool see(BrickCoord brick, int a, int b, int c, ShownPlace& shown) const;
+    Vec3 normal_at(BrickCoord brick, int index, ShapeId shape, Vec3 node) const;
+    Vec3 along_surface(const SeenPlace& place) const;
+    bool none_nearer(const SeenPlace& place, double than_mm) const;
+    template <class Visit>
+    void visit_nearer(const ShownPlace& from, Visit&& visit) const;
+    bool comes_nearer(const ShownPlace& from) const;
+    double steepest_fall_mm(const ShownPlace& from) const;
+
+    const FieldQuery* field_;
+    Vec3 point_;
+    std::array<ShownPlace, 192> here_;    // of the last brick, not taken yet
+    std::array<ShownPlace, 384> passed_;  // taken or passed over
+    struct KnownNormal {
+        BrickCoord brick;
+        int index = -1;
+        Vec3 normal;
+    };
+    mutable std::array<KnownNormal, 256> known_;
+    std::size_t count_ = 0, passed_count_ = 0;
+    bool whole_ = true;
+};
+
+}  // namespace tribo::field
