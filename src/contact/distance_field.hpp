@@ -35,7 +35,8 @@ struct NearHint {
     // than the way.
     HalfSpaces sides;
     bool is_shallow = false;
-    // Searches along the surface that the queries with this hint have made. Each takes some microseconds.
+    // Searches along the surface that the queries with this hint have made, and bricks they have looked at
+    // for where to start. Each takes some microseconds.
     long searches = 0;
 };
 

@@ -66,11 +66,7 @@ class NearBrick final : public contact::DistanceField {
     NearBrick(const FieldQuery& field, BrickRef ref) : field_(field), ref_(ref) {}
     double distance_mm(Vec3 p) const override { return field_.exact(around(p), p).distance_mm; }
     Vec3 normal(Vec3 p) const override { return sample(p).normal; }
-    contact::SurfaceSample sample(Vec3 p) const override {
-        const FieldQuery::Exact e = field_.exact(around(p), p);
-        return {e.distance_mm, e.shape == 0 ? field_.blank().gradient(p) : -field_.shape(e.shape).gradient(p),
-                e.shape};
-    }
+    contact::SurfaceSample sample(Vec3 p) const override { return field_.sample_in(around(p), p); }
     contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
         return field_.sample_piece(piece, p);
     }
@@ -96,7 +92,7 @@ bool FieldQuery::is_clear(BrickRef ref, Vec3 p, double radius_mm) const {
         return id == 0 ? blank().distance_mm(p) >= radius_mm
                        : shape(id).distance_below(p, -radius_mm) < -radius_mm;
     };
-    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
+    const std::uint16_t likely = likely_in(brick, p);
     if (likely != Brick::kUnlisted && clears(brick.shapes[likely])) return true;
     for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
         if (n != likely && clears(brick.shapes[n])) return true;
@@ -443,6 +439,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
         if (way < nearest_box.distance_mm)
             nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
         // Start where the grid shows the surface, once for each cusp: two cusps in one brick are two places.
+        ++hint.searches;
         shown.look_at(b, reach());
         SeenPlace start;
         for (int n = 0; shown.take(reach(), {seen, count}, start); ++n) {

@@ -15,19 +15,37 @@ FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p, bool any_air) const {
     if (ref == kUntouched) return {blank().distance_mm(p), 0};
     if (ref == kAir) return {kClearCells * cell_mm, 0};
     const Brick& brick = (*pool)[ref];
-    Exact best{-near_mm, 0};
-    const auto measure = [&](ShapeId id) {
-        const double d = id == 0 ? blank().distance_mm(p) : -shape(id).distance_below(p, -best.distance_mm);
-        if (d > best.distance_mm) best = {d, id};
-    };
     // The shape that gives the distance at the nearest node most likely gives it here. The others only need
     // to be shown not to give it.
-    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, p).index)];
-    if (likely != Brick::kUnlisted) measure(brick.shapes[likely]);
+    const std::uint16_t likely = likely_in(brick, p);
+    Exact best{-near_mm, 0};
+    if (likely != Brick::kUnlisted) deepen(best, brick.shapes[likely], p);
     for (std::size_t n = 0; n < brick.shapes.size() && !(any_air && best.distance_mm > 0); ++n) {
-        if (n != likely) measure(brick.shapes[n]);
+        if (n != likely) deepen(best, brick.shapes[n], p);
     }
     return best;
+}
+
+void FieldQuery::deepen(Exact& best, ShapeId id, Vec3 p) const {
+    const double d = id == 0 ? blank().distance_mm(p) : -shape(id).distance_below(p, -best.distance_mm);
+    if (d > best.distance_mm) best = {d, id};
+}
+
+contact::SurfaceSample FieldQuery::sample_in(BrickRef ref, Vec3 p) const {
+    const bool air_or_blank = ref < kFirstBrick;
+    const std::uint16_t likely = air_or_blank ? Brick::kUnlisted : likely_in((*pool)[ref], p);
+    if (likely == Brick::kUnlisted) {
+        const Exact e = exact(ref, p);
+        return {e.distance_mm, outward(e.shape, p), e.shape};
+    }
+    const Brick& brick = (*pool)[ref];
+    const contact::SurfaceSample first = sample_piece(brick.shapes[likely], p);
+    Exact best{std::max(first.distance_mm, -near_mm), first.piece};
+    for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
+        if (n != likely) deepen(best, brick.shapes[n], p);
+    }
+    if (best.shape == first.piece) return {best.distance_mm, first.normal, first.piece};
+    return {best.distance_mm, outward(best.shape, p), best.shape};
 }
 
 double FieldQuery::distance_mm(Vec3 p) const {

@@ -81,6 +81,10 @@ struct FieldQuery {
     };
     Exact exact(BrickRef ref, Vec3 point_mm, bool any_air = false) const;
 
+    // The same with the direction. For a searched shape both come from one search: its distance may differ
+    // from that of exact() by rounding.
+    contact::SurfaceSample sample_in(BrickRef ref, Vec3 point_mm) const;
+
     // As in contact::DistanceField.
     double distance_mm(Vec3 point_mm) const;
     contact::SurfaceSample sample(Vec3 point_mm) const;
@@ -109,6 +113,11 @@ struct FieldQuery {
 
   private:
     class Candidates;
+    // Index of the shape that gives the distance at the nearest node.
+    std::uint16_t likely_in(const Brick& brick, Vec3 point_mm) const {
+        return brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, point_mm).index)];
+    }
+    void deepen(Exact& best, ShapeId id, Vec3 point_mm) const;
     double clear_of_nodes(const Brick& brick, Vec3 point_mm) const;
     double clear_among(BrickRef alike, BrickCoord b, Vec3 point_mm, double clear_mm, double enough_mm) const;
     double clear_in_air(BrickCoord b, Vec3 point_mm, double enough_mm) const;

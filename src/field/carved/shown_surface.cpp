@@ -20,6 +20,8 @@ constexpr double kAround = 0.87, kBulge = 0.1;
 constexpr double kGoesOn = 0.95, kNoEdge = 2e-3;
 // Surface so near to a place that was found belongs to it, in cells: in any direction, or beside an edge.
 constexpr double kOwn = 1.5, kOwnBeside = 0.5;
+// A point moves this far from query to query, in cells: less is not worth knowing.
+constexpr double kTooLittle = 0.02;
 // No point of the surface is farther than this from every node, in cells.
 constexpr double kClose = FieldQuery::kClearCells + FieldQuery::kRounding;
 // A place of the blank is in its brick up to this, mm.
@@ -161,51 +163,51 @@ Vec3 ShownSurface::along_surface(const SeenPlace& place) const {
     return way - dot(way, normal) * normal;
 }
 
-// Visits the places that nodes beside one show and that are nearer, where from there on the surface goes on
-// to come nearer: with the way to such a place and how steeply it does so there, in mm per mm times the
-// distance.
-template <class Visit>
-void ShownSurface::visit_nearer(const ShownPlace& from, Visit&& visit) const {
-    if (from.node[0] < 0) return;
+// Visits the places that nodes beside one show, in the direction in which the surface comes nearer to the
+// point, if they are nearer and the surface goes on to come nearer from there: until one is enough. Gives how
+// steeply it does so there: as the part of the way to the point that is along the step.
+template <class IsEnough>
+bool ShownSurface::visit_nearer(const ShownPlace& from, IsEnough&& is_enough) const {
+    if (from.node[0] < 0) return false;
+    const Vec3 way = along_surface(from.place);
     for (int c = -1; c <= 1; ++c) {
         for (int b = -1; b <= 1; ++b) {
             for (int a = -1; a <= 1; ++a) {
+                if (a * way.x + b * way.y + c * way.z <= 0) continue;
                 ShownPlace to;
                 if (!see(from.brick, from.node[0] + a, from.node[1] + b, from.node[2] + c, to)) continue;
                 if (to.way_mm >= from.way_mm || dot(to.place.normal, from.place.normal) < kGoesOn) continue;
                 const Vec3 step = to.place.at - from.place.at;
+                if (dot(step, way) <= 0) continue;
                 const double fall_mm = dot(normalized(step, Vec3{}), along_surface(to.place));
-                if (to.place.corner || fall_mm > 0) visit(to.place, step, fall_mm);
+                if ((to.place.corner || fall_mm > 0) && is_enough(to.place, step, fall_mm)) return true;
             }
         }
     }
+    return false;
 }
 
 // Whether the surface comes nearer to the point all the way to a place that a node beside this one shows.
 // That place leads where this one does.
 bool ShownSurface::comes_nearer(const ShownPlace& from) const {
     const SeenPlace& here = from.place;
-    const Vec3 way = along_surface(here);
-    bool nearer = false;
-    visit_nearer(from, [&](const SeenPlace& there, Vec3 step, double) {
-        nearer = nearer || (there.shape == here.shape && dot(step, way) > 0);
-    });
-    if (nearer || here.corner) return nearer;
+    const auto is_of_same = [&](const SeenPlace& there, Vec3, double) { return there.shape == here.shape; };
     // Another shape goes on where this one ends, if there is no edge between them.
-    visit_nearer(from, [&](const SeenPlace& there, Vec3 step, double) {
+    const auto is_of_next = [&](const SeenPlace& there, Vec3 step, double) {
         const double most = kNoEdge * length(step);
-        if (nearer || there.shape == here.shape || dot(step, way) <= 0 ||
-            dot(step, there.normal - here.normal) > most)
-            return;
-        nearer =
-            dot(step, field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at)) <= most;
-    });
-    return nearer;
+        const auto parts = [&](Vec3 turn) { return dot(step, turn) > most; };
+        return there.shape != here.shape && !parts(there.normal - here.normal) &&
+               !parts(field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at));
+    };
+    return visit_nearer(from, is_of_same) || (!here.corner && visit_nearer(from, is_of_next));
 }
 
 double ShownSurface::steepest_fall_mm(const ShownPlace& from) const {
     double most = 0;
-    visit_nearer(from, [&](const SeenPlace&, Vec3, double fall_mm) { most = std::max(most, fall_mm); });
+    visit_nearer(from, [&](const SeenPlace&, Vec3, double fall_mm) {
+        most = std::max(most, fall_mm);
+        return false;
+    });
     return most;
 }
 
@@ -253,6 +255,7 @@ double ShownSurface::settled_mm(double most_mm, const SeenPlace& nearest, const 
         const double nearer_mm = 0.5 * (one.way_mm - nearest_mm);
         if (nearer_mm >= settled || is_of(nearest, one.place.at) || is_of(second, one.place.at)) continue;
         settled = std::min(settled, std::max(nearer_mm, steepest_fall_mm(one)));
+        if (settled < kTooLittle * field_->cell_mm) return 0;
     }
     return settled;
 }

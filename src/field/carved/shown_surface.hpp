@@ -54,8 +54,8 @@ class ShownSurface {
     Vec3 normal_at(BrickCoord brick, int index, ShapeId shape, Vec3 node) const;
     Vec3 along_surface(const SeenPlace& place) const;
     bool none_nearer(const SeenPlace& place, double than_mm) const;
-    template <class Visit>
-    void visit_nearer(const ShownPlace& from, Visit&& visit) const;
+    template <class IsEnough>
+    bool visit_nearer(const ShownPlace& from, IsEnough&& is_enough) const;
     bool comes_nearer(const ShownPlace& from) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 

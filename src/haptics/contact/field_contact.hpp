@@ -90,9 +90,9 @@ class FieldContact {
     // Of the most: kept for the end of a tick, which pushes a proxy out of the material and asks where the
     // probe is.
     static constexpr int kEndQueries = 20;
-    // After so many searches along the surface no further step begins in a tick. A ball about as wide as the
-    // cutter was needs many.
-    static constexpr long kMostSearches = 150;
+    // After so many searches along the surface (NearHint) no further step begins in a tick. A ball about as
+    // wide as the cutter was needs many.
+    static constexpr long kMostSearches = 600;
     // A place of the proxy on the surface.
     struct Place {
         Vec3 proxy, normal{0, 0, 1};
