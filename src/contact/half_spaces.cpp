@@ -102,8 +102,8 @@ Vec3 HalfSpaces::nearest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen)
     const Vec3 aside = half * ((c * bend_b - bend_a) * a.normal + (c * bend_a - bend_b) * b.normal);
     const Vec3 off = flat - way * edge.along - y;
     const double rest = 1 + 2 * dot(off, aside);
-    if (rest < kLeastRest) return flat;
-    const double bent = way / rest;
+    // An edge that bends about y nearly as a circle does, or more, leads far: a step of some times the way.
+    const double bent = way / std::max(rest, kLeastRest);
     return flat + (bent - way) * edge.along + bent * bent * aside;
 }
 

@@ -41,7 +41,8 @@ struct HalfSpaces {
     };
     Edge edge_at(Vec3 at) const;
     // Returns the nearest point to y on an edge that bends, from `flat`, the nearest one on its line. The
-    // planes are tangents at `seen`. Returns `flat` where the edge bends about y nearly as a circle does.
+    // planes are tangents at `seen`. Where the edge bends about y nearly as a circle does: a point farther
+    // along.
     Vec3 nearest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen) const;
 
     // A direction as a sum of one to three normals, each times a weight of 0 or more.
