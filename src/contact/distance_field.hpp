@@ -82,9 +82,11 @@ struct Foot {
 
 // Finds the surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting
 // planes. The material near it is the intersection of half-spaces, one for each piece found; each is renewed
-// at the last result. Exact on edges and corners. Real-time safe, at most 16 rounds of one sample and the
-// pieces found; if these are not enough, returns a lower bound of the distance. The steps are at most
-// `longest_mm` long, because curved pieces must be found where they meet each other.
+// at the last result. Exact on edges and corners. At most 16 rounds of one sample and the pieces found; if
+// these are not enough, it follows the surface down in at most 24 steps. Out of a hollow that is nearly round
+// about the point it does the same to both sides. If nothing is found, returns a lower bound of the distance.
+// Real-time safe. The steps of the rounds are at most `longest_mm` long, because curved pieces must be found
+// where they meet each other.
 Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm = 1e9);
 
 // The same for a place on pieces that are known, from a start near it: asks the field for others only where

@@ -309,6 +309,24 @@ TEST(NearestPoint, is_the_shortest_of_all_rays_over_five_axis_passes) {
     expect_nearest(part, {{2, 2, -1}, {6, 6, 1.5}}, 2, 8, 6);
 }
 
+// The depth in the sweep of a tilted flat cutter is less than the distance to its floor: no place is proven
+// by the shapes that meet there alone.
+TEST(NearestPoint, is_the_shortest_of_all_rays_over_passes_of_a_tilted_flat_cutter) {
+    Carved part({{0, 0, -6}, {8, 8, 0}}, 0.2);
+    const Cutter flat = cutter_of(CutterKind::flat, 6);
+    const auto pose = [](double x, double y) {
+        const Vec3 axis = normalized(Vec3{0.1 * std::sin(0.5 * y), 0.25 + 0.1 * std::sin(0.3 * x), 1});
+        return motion::ToolPose{{x, y - 1, -1 + 0.2 * std::sin(0.4 * x + 0.3 * y)}, axis};
+    };
+    for (double x = 0; x <= 8; x += 1.6) {
+        motion::Move move;
+        move.start = pose(x, -1);
+        move.end = pose(x, 9);
+        part.mill(flat, move);
+    }
+    expect_nearest(part, {{2, 2, -2}, {6, 6, 1.5}}, 2, 10, 6);
+}
+
 // Ribs with sharp edges, and walls that lean.
 TEST(NearestPoint, is_the_shortest_of_all_rays_between_ribs) {
     for (const double lean : {0.0, 0.15}) {

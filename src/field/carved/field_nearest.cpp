@@ -244,8 +244,7 @@ class FieldQuery::Candidates {
 
 // Over a cusp the grid shows a place in the air between its sides. Returns the surface behind it, seen from
 // the point.
-Vec3 FieldQuery::surface_behind(const SeenPlace& place, Vec3 p) const {
-    Vec3 shown = place.at;
+Vec3 FieldQuery::surface_behind(Vec3 shown, Vec3 p) const {
     const Vec3 ray = normalized(shown - p, Vec3{});
     for (int n = 0; n < kMostDown; ++n) {
         const double air_mm = distance_mm(shown);
@@ -311,8 +310,10 @@ contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::Ne
         hint.at_mm = foot.at_mm;
         hint.from_mm = p;
     }
+    const bool is_of_same = hint.sides.count == 1 && foot.sides.count == 1 &&
+                            hint.sides.side[0].piece == foot.sides.side[0].piece;
+    hint.is_shallow = known.is_shallow && is_of_same;
     hint.sides = foot.sides;
-    hint.is_shallow = known.is_shallow;
     return foot.sample;
 }
 
@@ -391,14 +392,14 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     }
     if (is_settled) {
         double known_mm = distance(p, hint.at_mm);
-        const contact::Foot first = found.best();
-        bool are_two = true;
+        const bool is_one = found.best().found;
+        bool are_all = true;
         if (hint.has_second) {
             search_at(hint.second_mm);
             known_mm = std::min(known_mm, distance(p, hint.second_mm));
-            are_two = first.found && found.second().found;
+            are_all = is_one && found.second().found;
         }
-        if (are_two && found.distance_mm() <= known_mm + kOnSurface &&
+        if (are_all && found.distance_mm() <= known_mm + kOnSurface &&
             shown_beyond(hint.others_mm - moved_mm)) {
             if (hint.has_second) {
                 hint.second_mm = found.second().at_mm;
@@ -448,7 +449,7 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
                 break;
             }
             if (++searches > kMostSearches) break;
-            const std::optional<contact::Foot> foot = search(ref, surface_behind(start, p));
+            const std::optional<contact::Foot> foot = search(ref, surface_behind(start.at, p));
             if (is_proven) return found.best();
             if (!foot) {
                 doubt = true;
@@ -470,10 +471,9 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
         if (all_looked && shown.is_whole() && !doubt && found.best().found) {
             hint.proved_at_mm = p;
             hint.others_mm = std::min({found.others_mm(), reach(), proven});
-            hint.settled_mm =
-                shown.settled_mm(reach() - found.distance_mm(), place_of(found.best()),
-                                 found.second().found ? place_of(found.second()) : place_of(found.best()));
             hint.has_second = found.second().found;
+            hint.settled_mm = shown.settled_mm(reach() - found.distance_mm(), place_of(found.best()),
+                                               place_of(hint.has_second ? found.second() : found.best()));
             hint.second_mm = found.second().at_mm;
             hint.second_far_mm = hint.has_second ? found.second().sample.distance_mm : hint.others_mm;
         }

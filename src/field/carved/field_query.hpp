@@ -16,8 +16,7 @@ namespace tribo::field {
 
 using ShapeStore = SteadyArray<std::unique_ptr<const Shape>, 1024>;  // [0] is the blank
 
-struct SeenPlace;
-
+// The point of a box that is nearest to another point.
 inline Vec3 clamped(const Box3& box, Vec3 p) {
     return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y),
             std::clamp(p.z, box.min.z, box.max.z)};
@@ -133,7 +132,7 @@ struct FieldQuery {
     bool is_listed(ShapeId id, Vec3 point_mm) const;
     contact::Foot search_nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint,
                                  const contact::Foot& known) const;
-    Vec3 surface_behind(const SeenPlace& place, Vec3 point_mm) const;
+    Vec3 surface_behind(Vec3 shown_mm, Vec3 point_mm) const;
 };
 
 // All contents of a field, at an address that does not change.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface in one brick as its nodes show it around a point: where searches for the nearest place start.
+// The surface around a point as the nodes of the grid show it: where searches for the nearest place start.
 #pragma once
 
 #include <array>
@@ -30,7 +30,7 @@ struct ShownPlace {
     int node[3];  // node[0] < 0: the place is on the face of the blank, not shown by a node
 };
 
-// The surface around a point as the nodes of the bricks show it.
+// Looks at one brick after another. Allocates nothing: it is about 90 kB large.
 class ShownSurface {
   public:
     ShownSurface(const FieldQuery& field, Vec3 point_mm) : field_(&field), point_(point_mm) {}
