@@ -74,16 +74,16 @@ FileResult<void> check_names(const std::string& target, const std::string& shown
 // is moved back.
 void clean_siblings(const std::string& parent, const std::string& base, const std::string& target) {
     std::error_code error;
-    for (const std::string& dir : abandoned_siblings(parent, older_prefix(base))) {
+    visit_abandoned(parent, older_prefix(base), [&](const std::string& dir) {
         struct stat status = {};
         if (::lstat(target.c_str(), &status) != 0 && errno == ENOENT) {
             fs::rename(dir, target, error);
         } else {
             fs::remove_all(dir, error);
         }
-    }
-    for (const std::string& dir : abandoned_siblings(parent, partial_prefix(base)))
-        fs::remove_all(dir, error);
+    });
+    visit_abandoned(parent, partial_prefix(base),
+                    [&](const std::string& dir) { fs::remove_all(dir, error); });
 }
 
 // Creates the missing parent folders of `dir` and lists them in `made`, outermost first.

@@ -41,7 +41,7 @@ FileResult<PendingFile> PendingFile::open(const std::string& path) {
     file.target_ = target.string();
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const std::string prefix = sibling_prefix(target.filename().string(), "part");
-    for (const std::string& left : abandoned_siblings(folder.string(), prefix)) ::unlink(left.c_str());
+    visit_abandoned(folder.string(), prefix, [](const std::string& left) { ::unlink(left.c_str()); });
     for (int n = 0; n < kNames; ++n) {
         const std::string sibling = (folder / random_sibling(prefix)).string();
         // Noted first: a signal may come between the two.

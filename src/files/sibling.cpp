@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace tribo::files {
 namespace {
@@ -20,15 +21,17 @@ namespace fs = std::filesystem;
 // No pipe: opening one would wait for its writer. No link: it may lead anywhere.
 constexpr int kLookOnly = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
 
-bool is_abandoned(const std::string& path) {
+// A descriptor that holds the lock of an abandoned sibling; -1 where a living process holds it, or where it
+// is no file or folder.
+int lock_abandoned(const std::string& path) {
     struct stat status = {};
-    if (::lstat(path.c_str(), &status) != 0) return false;
-    if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return false;
+    if (::lstat(path.c_str(), &status) != 0) return -1;
+    if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return -1;
     const int descriptor = ::open(path.c_str(), kLookOnly);
-    if (descriptor < 0) return false;
-    const bool free = ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
+    if (descriptor < 0) return -1;
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
     ::close(descriptor);
-    return free;
+    return -1;
 }
 
 }  // namespace
@@ -53,14 +56,18 @@ bool hold_sibling(int descriptor, const std::string& path) {
            held.st_ino == seen.st_ino && held.st_dev == seen.st_dev;
 }
 
-std::vector<std::string> abandoned_siblings(const std::string& folder, const std::string& prefix) {
-    std::vector<std::string> found;
+void visit_abandoned(const std::string& folder, const std::string& prefix,
+                     const std::function<void(const std::string&)>& visit) {
+    std::vector<std::string> siblings;
     std::error_code error;
-    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-        if (!it->path().filename().string().starts_with(prefix)) continue;
-        if (is_abandoned(it->path().string())) found.push_back(it->path().string());
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+        if (it->path().filename().string().starts_with(prefix)) siblings.push_back(it->path().string());
+    for (const std::string& sibling : siblings) {
+        const int lock = lock_abandoned(sibling);
+        if (lock < 0) continue;
+        visit(sibling);
+        ::close(lock);
     }
-    return found;
 }
 
 int sync_descriptor(int descriptor) {

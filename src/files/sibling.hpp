@@ -3,8 +3,8 @@
 // while its process lives, so that a later run can tell and remove what a killed one left.
 #pragma once
 
+#include <functional>
 #include <string>
-#include <vector>
 
 namespace tribo::files {
 
@@ -18,8 +18,10 @@ std::string random_sibling(const std::string& prefix);
 // another one by now.
 bool hold_sibling(int descriptor, const std::string& path);
 
-// The siblings in `folder` that no living process holds. Links are none.
-std::vector<std::string> abandoned_siblings(const std::string& folder, const std::string& prefix);
+// Calls `visit` with each sibling in `folder` that no living process holds. Links are none. It stays locked
+// while `visit` runs: a process that has just made it cannot take it, and makes another.
+void visit_abandoned(const std::string& folder, const std::string& prefix,
+                     const std::function<void(const std::string&)>& visit);
 
 // Sends what `descriptor` has open to the disk. Returns 0 or the error number. A file system that cannot do
 // so has nothing more durable to offer: 0.

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "files/scratch.hpp"
+#include "files/sibling.hpp"
 
 namespace tribo::files {
 namespace {
@@ -81,6 +82,24 @@ TEST(PendingFile, of_a_killed_writer_is_removed_and_of_a_living_one_kept) {
     ASSERT_TRUE(living->finish());
     EXPECT_EQ(scratch.get("f"), "first");
     EXPECT_EQ(scratch.entries(), 1u);
+}
+
+// Who removes what a killed run left holds it: a process that made it a moment ago and was not yet quick
+// enough to lock it must see that it is lost.
+TEST(AbandonedSiblings, cannot_be_taken_while_they_are_removed) {
+    const Scratch scratch;
+    scratch.put(".f.tribo-part-1", "left");
+    const int made = ::open((scratch / ".f.tribo-part-1").c_str(), O_WRONLY | O_CLOEXEC);
+    ASSERT_GE(made, 0);
+    int visited = 0;
+    visit_abandoned(scratch.path(), ".f.tribo-part-", [&](const std::string& path) {
+        EXPECT_FALSE(hold_sibling(made, path));
+        ++visited;
+        ASSERT_EQ(::unlink(path.c_str()), 0);
+    });
+    EXPECT_EQ(visited, 1);
+    EXPECT_FALSE(hold_sibling(made, scratch / ".f.tribo-part-1"));
+    ::close(made);
 }
 
 // Two writers of one file: it is the whole work of one of them, whichever ends last, and nothing is left.
