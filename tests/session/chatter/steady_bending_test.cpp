@@ -164,11 +164,13 @@ RC_GTEST_PROP(SteadyBending, is_what_modes_leave_that_are_too_fast_to_ring, ()) 
         if (above == rung_mm.begin()) ++above;
         const auto below = std::prev(above);
         const double share = (height_of(t) - below->first) / (above->first - below->first);
-        const double expected = below->second + share * (above->second - below->second);
+        // The modes yield everywhere as the beam does at its middle; the beam itself yields more below.
+        const double here = dynamics::yield_mm_per_n(beam, middle, height_of(t)) / yield;
+        const double expected = here * (below->second + share * (above->second - below->second));
         const double mark = static_cast<double>(bent.marks[t.first].displaced_mm);
         RC_LOG() << height_of(t) << " " << mark << " " << expected << "\n";
-        // The beam is not quite as stiff at other heights, and the modes have a little inertia.
-        RC_ASSERT(std::abs(mark - expected) < 0.06 * largest);
+        // The modes have a little inertia.
+        RC_ASSERT(std::abs(mark - expected) < 0.04 * largest);
     }
 }
 
