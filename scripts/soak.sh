@@ -8,7 +8,7 @@ source "$(dirname "$0")/environment.sh"
 source scripts/presets.sh
 
 # Under the address sanitizer each of them takes half a minute to four. Other tests run the same code.
-names=(
+long_with_addresses=(
     app.CutSound.has_the_third_ app.CutSound.learned_from_a_cut_ app.FeedVerb.is_faster_ app.PartMesh.of_every_example_
     app.RenderChatter.says_that_its_modes_ dynamics.ModeFit.finds_two_close_ dynamics.Stability.of_many_cuts_
     field.Contour.keeps_a_wall_that_ field.Contour.of_wide_layers_ field.ContourRefine.follows_round_ field.ContourRefine.of_random_
@@ -18,17 +18,30 @@ names=(
     session.EnergyBalance.holds_for_random_ session.ForceBySteps. session.LiveChanges.TellsTheBands session.ProfileCut.does_the_work_
     surface.NearestDeviation.rest_and_gouge_
 )
+# Under the thread sanitizer each of them takes ten seconds to eighty. Other tests run the same verbs in the same threads.
+long_with_threads=(
+    app.CompareVerb.gives_the_flags_ app.CompareVerb.joins_another_ app.CompareVerb.of_a_job_with_itself_ app.CompareVerb.refuses_
+    app.CompareVerb.says_what_a_folder_ app.FeedVerb.is_faster_ app.FeedVerb.unrolls_a_loop_in_ app.Press.refuses_
+    app.Program.and_the_job_ app.Program.with_wrong_flags_ app.StabilityVerb.asks_for_ app.StabilityVerb.chooses_
+    app.StabilityVerb.refuses_ app.Uncertain.refuses_
+)
 # One group: the regular expressions of ctest take ten at most, and then match nothing.
-minutes="^($(IFS='|' && printf %s "${names[*]//./\\.}"))"
+one_of() {
+    local IFS='|'
+    printf '^(%s)' "${*//./\\.}"
+}
+minutes=$(one_of "${long_with_addresses[@]}")
+thread_minutes=$(one_of "${long_with_threads[@]}")
 
 case ${1:-short} in
     short) fuzz_seconds=10 sound=Minutes ;;
-    long) fuzz_seconds=900 sound=Hour minutes= ;;
+    long) fuzz_seconds=900 sound=Hour minutes= thread_minutes= ;;
     *) fail "soak.sh takes short or long" ;;
 esac
 
 thread_sanitizer() {
-    configure_and_build tsan && TSAN_OPTIONS="suppressions=$PWD/scripts/thread_sanitizer.supp" run_ctest tsan
+    configure_and_build tsan && TSAN_OPTIONS="suppressions=$PWD/scripts/thread_sanitizer.supp" \
+        run_ctest tsan ${thread_minutes:+-E "$thread_minutes"}
 }
 
 # Random speeds, places and spindles: no NaN, nothing beyond full scale, no click.
