@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "base/vec3.hpp"
@@ -17,24 +18,30 @@ struct SurfaceSample {
     std::uint32_t piece = 0;  // the smooth part of the surface that gave the result, if the field knows it
 };
 
+// A place of the surface that is nearest to a point in its own neighbourhood, as a query found it.
+struct KnownPlace {
+    Vec3 at_mm;
+    HalfSpaces sides;   // tangent planes of the pieces that met there
+    double far_mm = 0;  // its least distance from NearHint::proved_at_mm
+};
+
 // Knowledge of the surface near a point that moves a little from query to query.
 struct NearHint {
     Vec3 at_mm;    // a guess at the nearest surface point
     Vec3 from_mm;  // the point that it was for
-    // The next nearest place, if one is known, and its least distance from proved_at_mm.
-    Vec3 second_mm;
-    double second_far_mm = 0;
-    bool has_second = false;
-    // Seen from proved_at_mm, all of the surface except these places was farther than others_mm; 0: not
-    // known.
-    Vec3 proved_at_mm;
-    double others_mm = 0;
-    // Until it has moved so far from there, no other place can come to be nearest in its neighbourhood.
-    double settled_mm = 0;
     // Tangent planes of the pieces that met there. is_shallow: there is one, and the distance to it is less
     // than the way.
     HalfSpaces sides;
     bool is_shallow = false;
+    // The next nearest places.
+    static constexpr int kMostOthers = 6;
+    std::array<KnownPlace, kMostOthers> other;
+    int others = 0;
+    // Seen from proved_at_mm, all of the surface except these places was farther than rest_mm; 0: not known.
+    Vec3 proved_at_mm;
+    double rest_mm = 0;
+    // Until it has moved so far from there, no other place can come to be nearest in its neighbourhood.
+    double settled_mm = 0;
     // Searches along the surface that the queries with this hint have made, and bricks they have looked at
     // for where to start. Each takes some microseconds.
     long searches = 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <utility>
+#include <span>
 
 #include "field/carved/field_query.hpp"
 #include "field/carved/shown_surface.hpp"
@@ -43,20 +43,40 @@ bool has_leapt(const contact::Foot& foot, Vec3 p, const contact::NearHint& hint)
            distance(foot.at_mm, hint.at_mm) > kSameFoot + kSlides * distance(p, hint.from_mm);
 }
 
-// The margin of a hint was proven for all but two places. Where the second one is the nearest now, the first
-// one is the second. After a leap to another place, the first one is one of the others.
+// Forgets nothing of what was proven for the known places when another one than that of the hint is nearest:
+// one of the others changes places with it, or it becomes one of all the rest.
 void keep_margin(const contact::Foot& foot, Vec3 p, contact::NearHint& hint) {
-    if (hint.others_mm <= 0 || hint.proved_at_mm == p) return;
+    if (hint.rest_mm <= 0 || hint.proved_at_mm == p) return;
     const double moved = distance(p, hint.proved_at_mm), last = distance(hint.from_mm, hint.at_mm);
-    if (hint.has_second && distance(foot.at_mm, hint.second_mm) < distance(foot.at_mm, hint.at_mm)) {
-        hint.second_mm = hint.at_mm;
-        hint.second_far_mm = last - distance(hint.from_mm, hint.proved_at_mm);
+    const std::span others(hint.other.data(), static_cast<std::size_t>(hint.others));
+    const auto off = [&](const contact::KnownPlace& other) { return distance(foot.at_mm, other.at_mm); };
+    const auto nearest = std::ranges::min_element(others, {}, off);
+    if (nearest != others.end() && off(*nearest) < distance(foot.at_mm, hint.at_mm)) {
+        *nearest = {hint.at_mm, hint.sides, last - distance(hint.from_mm, hint.proved_at_mm)};
     } else if (has_leapt(foot, p, hint)) {
-        hint.others_mm = std::max(0.0, std::min(hint.others_mm - moved, last - distance(p, hint.from_mm)));
-        hint.second_far_mm -= moved;
+        hint.rest_mm = std::max(0.0, std::min(hint.rest_mm - moved, last - distance(p, hint.from_mm)));
+        for (contact::KnownPlace& other : others) other.far_mm -= moved;
         hint.settled_mm -= moved;
         hint.proved_at_mm = p;
     }
+}
+
+// Whether a place is one of those of the hint and nearer than all that may be left. Material only ever
+// disappears: surface that was farther away a short time ago still is.
+bool is_nearer_than_rest(const contact::Foot& foot, Vec3 p, const contact::NearHint& hint) {
+    const double moved = distance(p, hint.proved_at_mm);
+    return hint.rest_mm > 0 && moved < hint.settled_mm && foot.found &&
+           foot.sample.distance_mm <= distance(p, hint.at_mm) + kOnSurface &&
+           foot.sample.distance_mm - (hint.rest_mm - moved) <= kOnSurface;
+}
+
+// Whether none of the other places of the hint can be nearer.
+bool is_nearer_than_others(const contact::Foot& foot, Vec3 p, const contact::NearHint& hint) {
+    const double moved = distance(p, hint.proved_at_mm);
+    const std::span others(hint.other.data(), static_cast<std::size_t>(hint.others));
+    return std::ranges::all_of(others, [&](const contact::KnownPlace& other) {
+        return foot.sample.distance_mm - (other.far_mm - moved) <= kOnSurface;
+    });
 }
 
 // The material according to the brick around a point. If that brick is air or does not exist, one given brick
@@ -125,43 +145,49 @@ bool FieldQuery::is_nearest(const contact::Foot& foot) const {
     return cone.count > 0 && nearer <= kOnSurface;
 }
 
-// The two nearest places of the surface found so far, and the distance of the next one.
+// The nearest places of the surface found so far that are nearer than `within_mm`, and the distance of all
+// the rest of them.
 class NearestPlaces {
   public:
     explicit NearestPlaces(double within_mm)
-        : best_{{within_mm, {0, 0, 1}, 0}, {1e300, 0, 0}, {}}, second_(best_), others_mm_(within_mm) {}
+        : within_mm_(within_mm),
+          rest_mm_(within_mm),
+          none_{{within_mm, {0, 0, 1}, 0}, {1e300, 0, 0}, {}, false} {}
 
-    const contact::Foot& best() const { return best_; }
-    const contact::Foot& second() const { return second_; }
-    double distance_mm() const { return best_.sample.distance_mm; }
-    double others_mm() const { return others_mm_; }
+    std::span<const contact::Foot> all() const { return {place_.data(), count_}; }
+    const contact::Foot& best() const { return count_ > 0 ? place_[0] : none_; }
+    bool none() const { return count_ == 0; }
+    double distance_mm() const { return count_ > 0 ? place_[0].sample.distance_mm : within_mm_; }
+    double rest_mm() const { return rest_mm_; }
     void put(const contact::Foot& foot) {
-        if (is_same(foot, best_)) {
-            if (is_nearer(foot, best_)) best_ = foot;
-        } else if (is_nearer(foot, best_)) {
-            // What was second, unless it is the place that is the best one now.
-            if (!is_same(foot, second_)) others_mm_ = std::min(others_mm_, second_.sample.distance_mm);
-            second_ = std::exchange(best_, foot);
-        } else if (is_same(foot, second_)) {
-            if (is_nearer(foot, second_)) second_ = foot;
-        } else if (is_nearer(foot, second_)) {
-            others_mm_ = std::min(others_mm_, second_.sample.distance_mm);
-            second_ = foot;
+        if (foot.sample.distance_mm >= within_mm_) return;
+        const auto is_same = [&](const contact::Foot& other) {
+            return distance(foot.at_mm, other.at_mm) <= kSameFoot;
+        };
+        const auto same = std::find_if(place_.begin(), place_.begin() + count_, is_same);
+        std::size_t n = static_cast<std::size_t>(same - place_.begin());
+        if (n < count_) {
+            if (!is_nearer(foot, *same)) return;
+        } else if (count_ < place_.size()) {
+            ++count_;
         } else {
-            others_mm_ = std::min(others_mm_, foot.sample.distance_mm);
+            --n;
+            rest_mm_ = std::min(rest_mm_, std::max(foot, place_[n], is_nearer).sample.distance_mm);
+            if (!is_nearer(foot, place_[n])) return;
         }
+        for (; n > 0 && is_nearer(foot, place_[n - 1]); --n) place_[n] = place_[n - 1];
+        place_[n] = foot;
     }
 
   private:
     static bool is_nearer(const contact::Foot& a, const contact::Foot& b) {
         return a.sample.distance_mm < b.sample.distance_mm;
     }
-    static bool is_same(const contact::Foot& a, const contact::Foot& b) {
-        return distance(a.at_mm, b.at_mm) <= kSameFoot;
-    }
 
-    contact::Foot best_, second_;
-    double others_mm_;
+    double within_mm_, rest_mm_;
+    contact::Foot none_;
+    std::array<contact::Foot, 1 + contact::NearHint::kMostOthers> place_;
+    std::size_t count_ = 0;
 };
 
 // The bricks within `bound_mm` of a point that may contain material, and the distance up to which all of them
@@ -283,144 +309,160 @@ bool FieldQuery::is_listed(ShapeId id, Vec3 p) const {
 
 // The nearest place on the pieces that met at the last one, and whether it is proven to be the nearest of
 // all.
-FieldQuery::Followed FieldQuery::follow(Vec3 p, const contact::NearHint& hint) const {
-    if (hint.sides.count == 0) return {};
-    for (int n = 0; n < hint.sides.count; ++n) {
-        if (!is_listed(hint.sides.side[static_cast<std::size_t>(n)].piece, hint.at_mm)) return {};
+FieldQuery::Followed FieldQuery::follow(Vec3 p, Vec3 last_mm, const contact::HalfSpaces& sides,
+                                        bool is_shallow) const {
+    if (sides.count == 0) return {};
+    for (int n = 0; n < sides.count; ++n) {
+        if (!is_listed(sides.side[static_cast<std::size_t>(n)].piece, last_mm)) return {};
     }
-    Vec3 start = hint.sides.nearest(p);
-    if (hint.sides.count == 1) {
-        if (!hint.is_shallow) {
-            const contact::Foot foot = below(sample_piece(hint.sides.side[0].piece, p), p);
+    Vec3 start = sides.nearest(p);
+    if (sides.count == 1) {
+        if (!is_shallow) {
+            const contact::Foot foot = below(sample_piece(sides.side[0].piece, p), p);
             if (foot.found) return {foot, true, false};
             start = foot.at_mm;
         }
-    } else if (const auto edge = hint.sides.edge_at(start); squared_length(edge.along) > 0) {
-        start = hint.sides.nearest_on_bend(p, edge, start, hint.at_mm);
+    } else if (const auto edge = sides.edge_at(start); squared_length(edge.along) > 0) {
+        start = sides.nearest_on_bend(p, edge, start, last_mm);
     }
-    const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, hint.sides);
-    return {foot, foot.found && is_nearest(foot), hint.sides.count == 1};
+    const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, sides);
+    return {foot, foot.found && is_nearest(foot), sides.count == 1};
 }
 
-contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
-    const Followed known = follow(p, hint);
-    if (known.is_proven) keep_margin(known.foot, p, hint);
-    const contact::Foot foot = known.is_proven ? known.foot : search_nearest(p, within_mm, hint, known.foot);
-    if (foot.found) {
-        hint.at_mm = foot.at_mm;
-        hint.from_mm = p;
-    }
-    const bool is_of_same = hint.sides.count == 1 && foot.sides.count == 1 &&
-                            hint.sides.side[0].piece == foot.sides.side[0].piece;
-    hint.is_shallow = known.is_shallow && is_of_same;
-    hint.sides = foot.sides;
-    return foot.sample;
-}
+// The nearest place to one point, where following the last one does not prove it.
+class FieldQuery::NearestSearch {
+  public:
+    NearestSearch(const FieldQuery& field, Vec3 p, double within_mm, contact::NearHint& hint)
+        : field_(field), p_(p), within_mm_(within_mm), hint_(hint), found_(within_mm) {}
 
-contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::NearHint& hint,
-                                         const contact::Foot& known) const {
-    // Material only ever disappears: surface that was farther away a short time ago still is. What was found
-    // must be a place of the hint: not beyond the point that was nearest there.
-    const double moved_mm = distance(p, hint.proved_at_mm);
-    const bool is_settled = hint.others_mm > 0 && moved_mm < hint.settled_mm;
-    if (known.found && is_settled && known.sample.distance_mm <= distance(p, hint.at_mm) + kOnSurface &&
-        known.sample.distance_mm - (std::min(hint.others_mm, hint.second_far_mm) - moved_mm) <= kOnSurface)
-        return known;
+    contact::Foot from(const contact::Foot& known);
+
+  private:
+    bool is_proven_beyond(double mm) const { return is_proven_ || found_.distance_mm() - mm <= kOnSurface; }
+    std::optional<contact::Foot> search(BrickRef ref, Vec3 from);
+    std::optional<contact::Foot> search_at(Vec3 from);
+    bool is_among_known();
+    contact::Foot among_bricks(contact::SurfaceSample lower);
+
+    const FieldQuery& field_;
+    const Vec3 p_;
+    const double within_mm_;
+    contact::NearHint& hint_;
+    NearestPlaces found_;
+    bool is_proven_ = false;     // the best one is the nearest
+    Vec3 refuted_{1e300, 0, 0};  // the last foot point that was not on the surface
+};
+
+contact::Foot FieldQuery::NearestSearch::from(const contact::Foot& known) {
+    if (known.found) {
+        found_.put(known);
+        if (is_among_known()) return found_.best();
+    }
     // There is no material inside a shape that was carved. The depth of the point in it is therefore a lower
     // bound of the distance, which a surface point can reach; on a smooth piece one does.
-    const BrickCoord here = brick_at(p), there = brick_at(hint.at_mm);
+    const BrickCoord here = field_.brick_at(p_), there = field_.brick_at(hint_.at_mm);
     contact::SurfaceSample lower{0, {0, 0, 1}, 0};
     for (const BrickCoord b : {here, there}) {
-        if (!bricks.contains(b) || bricks.get(b) == kAir) continue;
-        const Exact e = exact(bricks.get(b), p);
-        const contact::SurfaceSample s{e.distance_mm, outward(e.shape, p), e.shape};
-        if (s.distance_mm >= within_mm) return {s, p, {}};
+        if (!field_.bricks.contains(b) || field_.bricks.get(b) == kAir) continue;
+        const Exact e = field_.exact(field_.bricks.get(b), p_);
+        const contact::SurfaceSample s{e.distance_mm, field_.outward(e.shape, p_), e.shape};
+        if (s.distance_mm >= within_mm_) return {s, p_, {}};
         if (s.distance_mm <= 0) {
-            if (b == here) return {s, p, {}};
+            if (b == here) return {s, p_, {}};
             continue;
         }
-        if (const contact::Foot foot = below(s, p); foot.found) {
-            keep_margin(foot, p, hint);
+        if (const contact::Foot foot = field_.below(s, p_); foot.found) {
+            keep_margin(foot, p_, hint_);
             return foot;
         }
         if (s.distance_mm > lower.distance_mm) lower = s;
         if (here == there) break;
     }
-    // At a cusp: the nearest surface point of each brick that may contain one.
-    NearestPlaces found(within_mm);
-    bool is_proven = false;     // the best one is the nearest
-    Vec3 refuted{1e300, 0, 0};  // the last foot point that was not on the surface
-    const auto search = [&](BrickRef ref, Vec3 from) {
-        std::optional<contact::Foot> last;
-        for (int tries = 0; tries < 2; ++tries) {
-            ++hint.searches;
-            const NearBrick brick(*this, ref);
-            const contact::Foot foot = contact::nearest_from(brick, p, from, kLongestCells * cell_mm);
-            const contact::SurfaceSample at_foot = sample(foot.at_mm);
-            if (foot.found && std::abs(at_foot.distance_mm) <= kOnSurface) {
-                found.put(foot);
-                is_proven = is_proven || is_nearest(foot);
-                last = foot;
-                // What was reached by following the surface may be a little off: once more from there.
-                if (foot.sides.count > 0) break;
-                from = foot.at_mm;
-                continue;
-            }
-            // The shapes of one brick may leave material where another brick has air. Continue from the true
-            // surface.
-            if (squared_length(foot.at_mm - refuted) < kOnSurface * kOnSurface) break;
-            refuted = foot.at_mm;
-            from = foot.at_mm - at_foot.distance_mm * at_foot.normal;
-            const BrickCoord b = brick_at(from);
-            if (!bricks.contains(b) || bricks.get(b) == kAir) break;
-            ref = bricks.get(b);
-        }
-        return last;
-    };
-    const auto search_at = [&](Vec3 from) {
-        const BrickCoord b = brick_at(from);
-        if (bricks.contains(b) && bricks.get(b) != kAir) (void)search(bricks.get(b), from);
-    };
-    const auto shown_beyond = [&](double mm) { return is_proven || found.distance_mm() - mm <= kOnSurface; };
-    if (known.found)
-        found.put(known);
-    else
-        search_at(hint.at_mm + (p - hint.from_mm));
-    if (shown_beyond(lower.distance_mm)) {
-        keep_margin(found.best(), p, hint);
-        return found.best();
-    }
-    if (is_settled) {
-        double known_mm = distance(p, hint.at_mm);
-        const bool is_one = found.best().found;
-        bool are_all = true;
-        if (hint.has_second) {
-            search_at(hint.second_mm);
-            known_mm = std::min(known_mm, distance(p, hint.second_mm));
-            are_all = is_one && found.second().found;
-        }
-        if (are_all && found.distance_mm() <= known_mm + kOnSurface &&
-            shown_beyond(hint.others_mm - moved_mm)) {
-            if (hint.has_second) {
-                hint.second_mm = found.second().at_mm;
-                hint.second_far_mm = found.second().sample.distance_mm - moved_mm;
-            }
-            return found.best();
-        }
+    if (!known.found) {
+        (void)search_at(hint_.at_mm + (p_ - hint_.from_mm));
+        if (is_among_known()) return found_.best();
     }
     // In a corner of the material both sides are near.
-    if (lower.distance_mm > 0) search_at(p - lower.distance_mm * lower.normal);
-    if (shown_beyond(lower.distance_mm)) {
-        keep_margin(found.best(), p, hint);
-        return found.best();
+    if (!is_proven_beyond(lower.distance_mm) && lower.distance_mm > 0)
+        (void)search_at(p_ - lower.distance_mm * lower.normal);
+    if (is_proven_beyond(lower.distance_mm)) {
+        keep_margin(found_.best(), p_, hint_);
+        return found_.best();
     }
-    hint.others_mm = 0;
-    hint.has_second = false;
+    return among_bricks(lower);
+}
+
+// From a place, in one brick.
+std::optional<contact::Foot> FieldQuery::NearestSearch::search(BrickRef ref, Vec3 from) {
+    std::optional<contact::Foot> last;
+    for (int tries = 0; tries < 2; ++tries) {
+        ++hint_.searches;
+        const NearBrick brick(field_, ref);
+        const contact::Foot foot = contact::nearest_from(brick, p_, from, kLongestCells * field_.cell_mm);
+        const contact::SurfaceSample at_foot = field_.sample(foot.at_mm);
+        if (foot.found && std::abs(at_foot.distance_mm) <= kOnSurface) {
+            found_.put(foot);
+            is_proven_ = is_proven_ || field_.is_nearest(foot);
+            last = foot;
+            // What was reached by following the surface may be a little off: once more from there.
+            if (foot.sides.count > 0) break;
+            from = foot.at_mm;
+            continue;
+        }
+        // The shapes of one brick may leave material where another brick has air. Continue from the true
+        // surface.
+        if (squared_length(foot.at_mm - refuted_) < kOnSurface * kOnSurface) break;
+        refuted_ = foot.at_mm;
+        from = foot.at_mm - at_foot.distance_mm * at_foot.normal;
+        const BrickCoord b = field_.brick_at(from);
+        if (!field_.bricks.contains(b) || field_.bricks.get(b) == kAir) break;
+        ref = field_.bricks.get(b);
+    }
+    return last;
+}
+
+std::optional<contact::Foot> FieldQuery::NearestSearch::search_at(Vec3 from) {
+    const BrickCoord b = field_.brick_at(from);
+    if (!field_.bricks.contains(b) || field_.bricks.get(b) == kAir) return std::nullopt;
+    return search(field_.bricks.get(b), from);
+}
+
+// Whether the nearest place is one of those of the hint: then it is found. Each must still be there: not
+// beyond the point that was nearest before.
+bool FieldQuery::NearestSearch::is_among_known() {
+    if (found_.none() || !is_nearer_than_rest(found_.best(), p_, hint_)) return false;
+    const double moved_mm = distance(p_, hint_.proved_at_mm);
+    const contact::Foot first = found_.best();
+    int nearest = -1;
+    for (int n = 0; n < hint_.others; ++n) {
+        contact::KnownPlace& other = hint_.other[static_cast<std::size_t>(n)];
+        if (found_.distance_mm() - (other.far_mm - moved_mm) <= kOnSurface) continue;
+        contact::Foot foot = field_.follow(p_, other.at_mm, other.sides, false).foot;
+        if (foot.found)
+            found_.put(foot);
+        else if (const auto searched = search_at(other.at_mm))
+            foot = *searched;
+        if (!foot.found || foot.sample.distance_mm > distance(p_, other.at_mm) + kOnSurface) return false;
+        other = {foot.at_mm, foot.sides, foot.sample.distance_mm - moved_mm};
+        if (found_.best().at_mm == foot.at_mm) nearest = n;
+    }
+    if (nearest >= 0)
+        hint_.other[static_cast<std::size_t>(nearest)] = {first.at_mm, first.sides,
+                                                          first.sample.distance_mm - moved_mm};
+    return true;
+}
+
+// At a cusp: the nearest surface point of each brick that may contain one, from the nearest brick on, which
+// is the most likely.
+contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample lower) {
+    hint_.rest_mm = 0;
+    hint_.others = 0;
     bool doubt = false;
-    // Search the bricks from the nearest one on, which are the most likely. Up to `proven` no other brick can
-    // be nearer.
-    const auto reach = [&] { return std::min(found.distance_mm() + kMarginCells * cell_mm, within_mm); };
-    Candidates bricks_near(*this, here, p, reach());
+    // Up to `proven` no brick that is not listed can be nearer.
+    const auto reach = [&] {
+        return std::min(found_.distance_mm() + kMarginCells * field_.cell_mm, within_mm_);
+    };
+    Candidates bricks_near(field_, field_.brick_at(p_), p_, reach());
     const double proven = bricks_near.seen_mm();
     BrickCoord b;
     double way = 0;
@@ -428,19 +470,21 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     bool all_looked = true;
     SeenPlace seen[2 * kMostSearches + 2];  // start and end points of the searches
     std::size_t count = 0;
-    ShownSurface shown(*this, p);
+    ShownSurface shown(field_, p_);
     const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
-        return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along, true};
+        const contact::HalfSpaces::Edge edge = foot.sides.edge_at(foot.at_mm);
+        const ShapeId one = foot.sides.side[edge.sides[0]].piece, two = foot.sides.side[edge.sides[1]].piece;
+        return {foot.at_mm, foot.sample.normal, edge.along, true, one, two};
     };
-    if (found.best().found) seen[count++] = place_of(found.best());
-    contact::SurfaceSample nearest_box{within_mm, {0, 0, 1}, 0};
+    if (!found_.none()) seen[count++] = place_of(found_.best());
+    contact::SurfaceSample nearest_box{within_mm_, {0, 0, 1}, 0};
     while (bricks_near.take(reach(), b, way)) {
-        const BrickRef ref = bricks.get(b);
-        if (is_clear(ref, p, reach())) continue;
+        const BrickRef ref = field_.bricks.get(b);
+        if (field_.is_clear(ref, p_, reach())) continue;
         if (way < nearest_box.distance_mm)
-            nearest_box = {way, (p - clamped(box(b), p)) / std::max(way, kOnSurface), 0};
+            nearest_box = {way, (p_ - clamped(field_.box(b), p_)) / std::max(way, kOnSurface), 0};
         // Start where the grid shows the surface, once for each cusp: two cusps in one brick are two places.
-        ++hint.searches;
+        ++hint_.searches;
         shown.look_at(b, reach());
         SeenPlace start;
         for (int n = 0; shown.take(reach(), {seen, count}, start); ++n) {
@@ -449,8 +493,8 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
                 break;
             }
             if (++searches > kMostSearches) break;
-            const std::optional<contact::Foot> foot = search(ref, surface_behind(start.at, p));
-            if (is_proven) return found.best();
+            const std::optional<contact::Foot> foot = search(ref, field_.surface_behind(start.at, p_));
+            if (is_proven_) return found_.best();
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
@@ -467,25 +511,48 @@ contact::Foot FieldQuery::search_nearest(Vec3 p, double within_mm, contact::Near
     }
     // A search may have failed on surface that the shapes of other bricks removed. This is accepted if
     // another search succeeded.
-    if (!(doubt && !found.best().found) && found.distance_mm() <= proven + kOnSurface) {
-        if (all_looked && shown.is_whole() && !doubt && found.best().found) {
-            hint.proved_at_mm = p;
-            hint.others_mm = std::min({found.others_mm(), reach(), proven});
-            hint.has_second = found.second().found;
-            hint.settled_mm = shown.settled_mm(reach() - found.distance_mm(), place_of(found.best()),
-                                               place_of(hint.has_second ? found.second() : found.best()));
-            hint.second_mm = found.second().at_mm;
-            hint.second_far_mm = hint.has_second ? found.second().sample.distance_mm : hint.others_mm;
+    if (!(doubt && found_.none()) && found_.distance_mm() <= proven + kOnSurface) {
+        if (all_looked && shown.is_whole() && !doubt && !found_.none()) {
+            hint_.proved_at_mm = p_;
+            hint_.rest_mm = std::min({found_.rest_mm(), reach(), proven});
+            std::array<SeenPlace, 1 + contact::NearHint::kMostOthers> known;
+            for (std::size_t n = 0; n < found_.all().size(); ++n) {
+                const contact::Foot& foot = found_.all()[n];
+                known[n] = place_of(foot);
+                if (n > 0)
+                    hint_.other[static_cast<std::size_t>(hint_.others++)] = {foot.at_mm, foot.sides,
+                                                                             foot.sample.distance_mm};
+            }
+            hint_.settled_mm =
+                shown.settled_mm(reach() - found_.distance_mm(), {known.data(), found_.all().size()});
         }
-        return found.best();
+        return found_.best();
     }
     // Not proven to be the nearest: return what is known of the distance.
     if (nearest_box.distance_mm > lower.distance_mm && nearest_box.distance_mm < proven) lower = nearest_box;
     if (nearest_box.distance_mm >= proven && proven > lower.distance_mm)
         lower = {proven, lower.normal, lower.piece};
-    const double outside = blank().distance_mm(p);
-    if (outside > lower.distance_mm) lower = {outside, blank().gradient(p), 0};
-    return {lower, p, {}};
+    const double outside = field_.blank().distance_mm(p_);
+    if (outside > lower.distance_mm) lower = {outside, field_.blank().gradient(p_), 0};
+    return {lower, p_, {}};
+}
+
+contact::SurfaceSample FieldQuery::nearest(Vec3 p, double within_mm, contact::NearHint& hint) const {
+    const Followed known = follow(p, hint.at_mm, hint.sides, hint.is_shallow);
+    if (known.is_proven) keep_margin(known.foot, p, hint);
+    const bool is_known = known.is_proven || (is_nearer_than_rest(known.foot, p, hint) &&
+                                              is_nearer_than_others(known.foot, p, hint));
+    const contact::Foot foot =
+        is_known ? known.foot : NearestSearch(*this, p, within_mm, hint).from(known.foot);
+    if (foot.found) {
+        hint.at_mm = foot.at_mm;
+        hint.from_mm = p;
+    }
+    const bool is_of_same = hint.sides.count == 1 && foot.sides.count == 1 &&
+                            hint.sides.side[0].piece == foot.sides.side[0].piece;
+    hint.is_shallow = known.is_shallow && is_of_same;
+    hint.sides = foot.sides;
+    return foot.sample;
 }
 
 }  // namespace tribo::field

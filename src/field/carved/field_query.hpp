@@ -112,6 +112,7 @@ struct FieldQuery {
 
   private:
     class Candidates;
+    class NearestSearch;
     // Index of the shape that gives the distance at the nearest node.
     std::uint16_t likely_in(const Brick& brick, Vec3 point_mm) const {
         return brick.winner[static_cast<std::size_t>(nearest_node(brick.coord, point_mm).index)];
@@ -127,11 +128,9 @@ struct FieldQuery {
         bool is_proven = false;
         bool is_shallow = false;  // contact::NearHint
     };
-    Followed follow(Vec3 point_mm, const contact::NearHint& hint) const;
+    Followed follow(Vec3 point_mm, Vec3 last_mm, const contact::HalfSpaces& sides, bool is_shallow) const;
     contact::Foot below(contact::SurfaceSample depth, Vec3 point_mm) const;
     bool is_listed(ShapeId id, Vec3 point_mm) const;
-    contact::Foot search_nearest(Vec3 point_mm, double within_mm, contact::NearHint& hint,
-                                 const contact::Foot& known) const;
     Vec3 surface_behind(Vec3 shown_mm, Vec3 point_mm) const;
 };
 

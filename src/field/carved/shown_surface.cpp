@@ -18,8 +18,9 @@ constexpr double kAround = 0.87, kBulge = 0.1;
 // Surface between two nodes goes on around no corner if the product of their normals is at least kGoesOn, and
 // has no edge if the normals part by no more than kNoEdge.
 constexpr double kGoesOn = 0.95, kNoEdge = 2e-3;
-// Surface so near to a place that was found belongs to it, in cells: in any direction, or beside an edge.
-constexpr double kOwn = 1.5, kOwnBeside = 0.5;
+// Surface so near to a place that was found belongs to it, in cells: in any direction, or beside an edge, or
+// along the edge where one of its pieces is shown.
+constexpr double kOwn = 1.5, kOwnBeside = 0.5, kOwnAlong = 4;
 // A point moves this far from query to query, in cells: less is not worth knowing.
 constexpr double kTooLittle = 0.02;
 // No point of the surface is farther than this from every node, in cells.
@@ -140,7 +141,7 @@ bool ShownSurface::see(BrickCoord where, int a, int b, int c, ShownPlace& shown)
     const Vec3 normal = corner ? normal_at(where, static_cast<int>(index), shape, node)
                                : normalized(slope, Vec3{0, 0, 1}),
                at = node - (steep > kOneSlope || corner ? d : d / steep) * normal;
-    shown = {{at, normal, {}, false, shape, corner}, distance(at, point_), where, {a, b, c}};
+    shown = {{at, normal, {}, false, shape, 0, corner}, distance(at, point_), where, {a, b, c}};
     return true;
 }
 
@@ -241,19 +242,22 @@ bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPl
     return false;
 }
 
-double ShownSurface::settled_mm(double most_mm, const SeenPlace& nearest, const SeenPlace& second) const {
-    const double nearest_mm = distance(nearest.at, point_);
-    const auto is_of = [&](const SeenPlace& found, Vec3 at) {
+double ShownSurface::settled_mm(double most_mm, std::span<const SeenPlace> known) const {
+    const double nearest_mm = distance(known.front().at, point_);
+    const auto is_of = [&](const SeenPlace& found, const SeenPlace& shown) {
         const bool edge = squared_length(found.along) > 0;
-        const Vec3 off = (at - found.at) * field_->per_cell,
+        const bool on_edge = edge && (shown.shape == found.shape || shown.shape == found.beside);
+        const Vec3 off = (shown.at - found.at) * field_->per_cell,
                    aside = off - dot(off, found.along) * found.along;
-        const double own = edge ? kOwnBeside : kOwn;
-        return squared_length(aside) <= own * own && squared_length(off) <= kOwn * kOwn;
+        const double beside = edge ? kOwnBeside : kOwn, far = on_edge ? kOwnAlong : kOwn;
+        return squared_length(aside) <= beside * beside && squared_length(off) <= far * far;
     };
     double settled = most_mm;
     for (const ShownPlace& one : std::span(passed_.data(), passed_count_)) {
         const double nearer_mm = 0.5 * (one.way_mm - nearest_mm);
-        if (nearer_mm >= settled || is_of(nearest, one.place.at) || is_of(second, one.place.at)) continue;
+        if (nearer_mm >= settled ||
+            std::ranges::any_of(known, [&](const SeenPlace& found) { return is_of(found, one.place); }))
+            continue;
         settled = std::min(settled, std::max(nearer_mm, steepest_fall_mm(one)));
         if (settled < kTooLittle * field_->cell_mm) return 0;
     }

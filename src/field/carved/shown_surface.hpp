@@ -14,7 +14,8 @@ struct SeenPlace {
     Vec3 at, normal;
     Vec3 along;           // of the edge to which a search led from there; zero if to none
     bool ended = false;   // a search ended there
-    ShapeId shape = 0;    // that gives the distance at the node
+    ShapeId shape = 0;    // that gives the distance at the node, or of one side of the edge
+    ShapeId beside = 0;   // of the other side of the edge
     bool corner = false;  // the node is near a corner: the place may be in the air before it
 };
 
@@ -44,9 +45,9 @@ class ShownSurface {
     bool take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place);
     // False if there were more places than could be kept. The nearest ones are.
     bool is_whole() const { return whole_; }
-    // How far the point may move, up to `most_mm`, until a place that does not belong to the two nearest ones
-    // may become the nearest of its neighbourhood, and nearer than these.
-    double settled_mm(double most_mm, const SeenPlace& nearest, const SeenPlace& second) const;
+    // How far the point may move, up to `most_mm`, until a place that does not belong to those that are
+    // known, the nearest one first, may become the nearest of its neighbourhood, and nearer than these.
+    double settled_mm(double most_mm, std::span<const SeenPlace> known) const;
 
   private:
     void put(const ShownPlace& one);
