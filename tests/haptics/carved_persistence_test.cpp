@@ -230,6 +230,47 @@ TEST(CarvedPersistence, a_ball_as_wide_as_the_cutter_keeps_up_with_the_hand) {
     }
 }
 
+// Where slots end and cross, a ball wider than they are lies on many edges at once. It goes on from there: it
+// does not try the same steps again and again while the hand moves away.
+TEST(CarvedPersistence, a_ball_on_the_edges_of_slots_never_stands_still_before_it_has_settled) {
+    constexpr double kCutter = 1.5, kEdge = 14, kRadius = 2;
+    constexpr int kSlots = 10, kTicks = 400, kLongest = 20;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        const CounterNoise noise(seed);
+        std::uint64_t drawn = 0;
+        const auto between = [&](double low, double high) {
+            return low + (high - low) * noise.uniform(drawn++);
+        };
+        const auto place = [&](double z) { return Vec3{between(2, kEdge - 2), between(2, kEdge - 2), z}; };
+        field::CarvedField field(std::make_unique<field::BoxShape>(Box3{{0, 0, -6}, {kEdge, kEdge, 0}}), 0.2);
+        for (int n = 0; n < kSlots; ++n) {
+            motion::Move move;
+            move.start.tip_mm = place(-0.6);
+            move.end.tip_mm = place(-0.6);
+            field.carve(milling::make_sweep(ball_mill(kCutter), move));
+        }
+        ContactOptions options;
+        options.probe_radius_mm = kRadius;
+        FieldContact contact(field, options);
+        const double deep = between(0.2, 2.5), step_mm = between(0.005, 0.05);
+        Vec3 probe = place(kRadius + 0.2), to = place(0);
+        contact.update(probe);
+        Vec3 last;
+        int still = 0, longest = 0;
+        for (int n = 0; n < kTicks; ++n) {
+            const Vec3 way{to.x - probe.x, to.y - probe.y, 0};
+            if (length(way) < step_mm) to = place(0);
+            probe += step_mm * normalized(way, Vec3{});
+            probe.z = std::max(probe.z - 0.05, kRadius - deep);
+            const ProbeContact felt = contact.update(probe);
+            still = !felt.settled && distance(felt.proxy_mm, last) < 1e-6 ? still + 1 : 0;
+            longest = std::max(longest, still);
+            last = felt.proxy_mm;
+        }
+        EXPECT_LE(longest, kLongest) << seed;
+    }
+}
+
 // A finger and a stylus lean and turn while they are drawn over milled grooves: no point of them comes to
 // stand in material, and where one would, the surface pushes back.
 TEST(CarvedPersistence, no_point_of_a_finger_or_stylus_goes_through) {

@@ -10,6 +10,8 @@ namespace {
 
 // A proxy within this of the surface is on it, mm. No shorter step is worth taking.
 constexpr double kSkin = 1e-6;
+// The same for a ball, whose nearest place the field finds within 2e-5.
+constexpr double kBallSkin = 4e-5;
 // The proxy has settled when its way along the surface is below this share of the penetration: the share of
 // the force's direction that is still wrong.
 constexpr double kSettled = 2e-3;
@@ -68,6 +70,10 @@ Vec3 limited(Vec3 v, double most) {
 
 }  // namespace
 
+double FieldContact::skin() const {
+    return gap_.radius_mm() > 0 ? kBallSkin : kSkin;
+}
+
 FieldContact::FieldContact(const contact::DistanceField& field, const ContactOptions& options)
     : field_(&field) {
     set_options(options);
@@ -105,7 +111,7 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     last_proxy_ = at_.proxy;
     settled_ = braced_ = moved_ = looked_ = false;
     side_step_.interrupt();
-    stride_mm_ = std::max(stride_mm_, kLowest);
+    if (stride_mm_ < kLowest) stride_mm_ = gap_.radius_mm() > 0 ? 1e30 : kLowest;
     if (phase_ == Phase::touching && stuck_s_ >= kStuckS) release_stuck_proxy(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
     if (phase_ == Phase::touching) renew_anchor();
@@ -124,7 +130,7 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
                 break;
         }
     }
-    if (phase_ == Phase::touching && !settled_) (void)push_out();
+    if (phase_ == Phase::touching && (!settled_ || braced_)) (void)push_out();
     const bool stuck = phase_ == Phase::touching && !settled_ && gap_.radius_mm() > 0 &&
                        distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe);
     stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
@@ -294,7 +300,7 @@ bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
 }
 
 // A step along the surface, and down onto it.
-FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to) {
+FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Split& way, Place& to) {
     const double size = length(step);
     const bool alone = from.sides.count == 1;
     Vec3 trial = from.proxy + step;
@@ -338,9 +344,16 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
             h.offset = dot(h.normal, from.proxy);
         }
         corner.put({-g.normal, -dot(g.normal, trial - g.gap_mm * g.normal), 0}, kOneSide);
-        to.proxy = corner.nearest(trial);
+        const Vec3 straight = from.proxy + (size / way.rest_mm) * way.rest;
+        to.proxy = corner.nearest(straight);
         // Not between here and the trial: the far side of a wall.
-        if (distance(to.proxy, trial) > size + kSkin) return Landing::none;
+        if (distance(to.proxy, straight) > size + kSkin) return Landing::none;
+        const Vec3 probe = from.proxy + way.rest + way.press;
+        if (distance(to.proxy, probe) >= distance(from.proxy, probe)) {
+            // Up the other side it is no nearer: along the corner, or as far down as that goes.
+            const Vec3 start = corner.nearest(from.proxy);
+            to.proxy = start + limited(corner.nearest(probe) - start, size);
+        }
         // A side that is far behind by now would hold the proxy where there is air.
         to.sides = {};
         for (int i = 0; i < from.sides.count; ++i) {
@@ -351,9 +364,11 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, Place& to
         // Along a corner: a side that the step has left is not there, nor one behind which there is air.
         to.proxy = trial - g.gap_mm * g.normal;
         to.sides = {};
+        // A ball that rolls over edges comes down as on a circle.
+        const double left = kLeft * size + (gap_.radius_mm() > 0 ? size * size / gap_.radius_mm() : 0);
         for (int i = 0; i < from.sides.count; ++i) {
             const contact::HalfSpace& h = from.sides.side[static_cast<std::size_t>(i)];
-            if (dot(h.normal, step) > -kLeft * size && dot(h.normal, to.proxy - from.proxy) < kLeft * size)
+            if (dot(h.normal, step) > -kLeft * size && dot(h.normal, to.proxy - from.proxy) < left)
                 to.sides.put(h, kOneSide);
         }
     }
@@ -426,21 +441,25 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
     const Vec3 step = step_for(way);
     const double size = length(step);
     Place to;
-    const Landing landing = land(at_, step, to);
+    const Landing landing = land(at_, step, way, to);
     chained_mm_ = 0;
     bool nearer = true;
     if (landing == Landing::over_edge && size <= kBeyond * way.rest_mm) {
         if (chain({to.proxy, clearance_mm(to.proxy, kHighest)})) return take_off();
     } else if (landing == Landing::on_surface) {
         const bool more_sides = to.sides.count > at_.sides.count;
-        const bool in_corner = more_sides && distance(to.proxy, at_.proxy) <= kSkin;
+        const double moved = distance(to.proxy, at_.proxy);
         const double gain = squared_length(probe - at_.proxy) - squared_length(probe - to.proxy);
         nearer = gain >= (more_sides ? 0 : kGain * dot(step, way.rest));
-        if (in_corner || (nearer && tie(to))) {
+        // Another side of the place itself.
+        const bool in_corner = more_sides && moved <= skin();
+        if ((in_corner && moved <= kSkin) || ((in_corner || nearer) && tie(to))) {
             const bool smooth = at_.sides.count == 1 && to.sides.count == 1 && at_.meeting.count == 0 &&
                                 to.meeting.count == 0 && at_.piece == to.piece &&
                                 dot(to.normal, at_.normal) > kOneSide;
-            side_step_.take(way.rest, to.proxy - at_.proxy, smooth);
+            const bool same = smooth || (at_.sides.count == 2 && to.sides.count == 2 &&
+                                         dot(up_from(at_), up_from(to)) > kOneSide);
+            side_step_.take(way.rest, to.proxy - at_.proxy, same, smooth);
             at_ = to;
             moved_ = true;
             stride_mm_ = std::max(stride_mm_, size / kShorter);
@@ -463,7 +482,7 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
         stride_mm_ = kShorter * size;
     }
     side_step_.interrupt();
-    if (stride_mm_ >= kSkin) return Next::more;
+    if (stride_mm_ >= skin()) return Next::more;
     // Where the shortest step comes no nearer, the proxy is as near as it can come.
     settled_ = braced_ = !nearer;
     return Next::nothing;
@@ -474,7 +493,7 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
 bool FieldContact::push_out() {
     for (int n = 0; n < kMostPushes; ++n) {
         const ProbeGap::Gap g = measure(at_.proxy);
-        if (g.gap_mm >= -2 * kSkin) return n > 0;
+        if (g.gap_mm >= -std::max(2 * kSkin, skin())) return n > 0;
         at_.proxy -= g.gap_mm * g.normal;
         at_.touch(g);
         at_.sides = {};
@@ -536,7 +555,8 @@ bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
 // Finds an anchor that touches the proxy and that the present anchor leads to, where that does not still
 // touch.
 bool FieldContact::tie(const Place& to) {
-    if (distance(to.proxy, anchor_.at) <= (1 + kTouches) * anchor_.radius) return true;
+    if (distance(to.proxy, anchor_.at) <= anchor_.radius + std::max(kTouches * anchor_.radius, skin()))
+        return true;
     Vec3 up = up_from(to);
     const double step = distance(to.proxy, at_.proxy);
     double height = std::clamp(std::max(kStepsHigh * step, height_), kLowest, kHighest);
@@ -544,7 +564,7 @@ bool FieldContact::tie(const Place& to) {
     for (int tries = 0; tries < 3 && budget(2); ++tries) {
         const Vec3 at = to.proxy + height * up;
         const Anchor a{at, clearance_mm(at, height, true)};
-        if (reaches_down(a, to.proxy, kTouches * height)) {
+        if (reaches_down(a, to.proxy, std::max(kTouches * height, skin()))) {
             // Over grooves of about the ball's radius a high anchor is costly to measure, a low one is not.
             height_ = gap_.searches() - searches > kCostlySearches ? 0.5 * height : height;
             return chain(a);

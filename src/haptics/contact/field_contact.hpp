@@ -124,7 +124,7 @@ class FieldContact {
     Next take_step(Vec3 probe, const Split& way);
     Vec3 step_for(const Split& way);
     enum class Landing { on_surface, over_edge, none };
-    Landing land(const Place& from, Vec3 step, Place& to);
+    Landing land(const Place& from, Vec3 step, const Split& way, Place& to);
     bool correct(Place& place, const ProbeGap::Gap& seen) const;
     bool push_out();
     void renew_anchor();
@@ -142,6 +142,7 @@ class FieldContact {
         ++queries_;
         return gap_.clearance_mm(*field_, at, enough_mm, over_touch);
     }
+    double skin() const;
     double hold() const { return sticking_ ? options_.friction_static : options_.friction_kinetic; }
 
     const contact::DistanceField* field_;

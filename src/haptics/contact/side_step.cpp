@@ -16,8 +16,8 @@ void SideStep::reset() {
     ease_ = 1;
 }
 
-void SideStep::take(Vec3 rest, Vec3 step, bool smooth) {
-    last_ = {rest, step, smooth};
+void SideStep::take(Vec3 rest, Vec3 step, bool same, bool smooth) {
+    last_ = {rest, step, same};
     if (!smooth) bend_.known = false;
 }
 
@@ -32,6 +32,7 @@ void SideStep::learn(Vec3 rest) {
     } else {
         // On a bump that the probe is deeper under than its centre there is nothing to settle at: away.
         change = std::max(1 / kMostEase, 0.5 / (bend_.known ? bend_.ease() : 1)) * step;
+        ease_ = std::min(1.0, 4 * ease_);
     }
     bend_ = {step, change, true};
     last_.known = false;

@@ -13,9 +13,9 @@ class SideStep {
   public:
     // Another surface: the next step is that of a plane, the whole remaining way.
     void reset();
-    // A step was taken from a place with the remaining way `rest` along the surface. `smooth`: along one
-    // smooth side.
-    void take(Vec3 rest_mm, Vec3 step_mm, bool smooth);
+    // A step was taken from a place with the remaining way `rest` along the surface. `same`: the same sides
+    // hold the place that it led to; `smooth`: one smooth side does.
+    void take(Vec3 rest_mm, Vec3 step_mm, bool same, bool smooth);
     // What was taken last is not followed by the next step: a step was refused, or the probe has moved.
     void interrupt() { last_.known = false; }
 
