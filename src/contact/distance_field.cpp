@@ -2,6 +2,7 @@
 #include "contact/distance_field.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -22,6 +23,8 @@ constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance. A bend is too great from this share of the bend of a
 // sphere on: nearly round about the point, a hollow tells no way to its nearest place.
 constexpr double kBendStep = 1e-3, kTooBent = 0.9;
+// An edge is round about the point if the way to its nearest place grows by no more than this share.
+constexpr double kRound = 0.3;
 // A side that is this share of a way behind does not come near over the way.
 constexpr double kBehind = 0.1;
 // Bends along an edge are measured over steps of this share along it, and at least this long beside the way
@@ -158,7 +161,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         if (std::abs(along_mm) < std::max(kAlong * step_mm, kLeastAlong * distance(point_mm, q)))
             along_mm = 0;
     }
-    return {{0, {0, 0, 1}, 0}, q, {}};
+    return {{0, {0, 0, 1}, 0}, q, sides};
 }
 
 // If the surface at a foot point bends towards the point more than a sphere about the point does: returns the
@@ -178,6 +181,133 @@ Vec3 steepest_bend(const DistanceField& field, const Foot& foot) {
     const Vec3 e =
         std::abs(least - a) > std::abs(least - c) ? b * u + (least - a) * v : (least - c) * u + b * v;
     return (-1 / least) * normalized(e, u);
+}
+
+// An edge on which two pieces meet.
+struct Edge {
+    const DistanceField& field;
+    std::array<std::uint32_t, 2> pieces;
+
+    struct Place {
+        Vec3 at, along;  // `along`: of the edge, unit
+        std::array<Vec3, 2> normals;
+    };
+    // The place of the edge beside a point, if the two pieces meet there. `along`: near its direction.
+    std::optional<Place> beside(Vec3 q, Vec3 along) const {
+        constexpr int kMostRounds = 6;
+        constexpr double kOnBoth = 1e-9, kLeastSine2 = 1e-6;
+        for (int n = 0; n < kMostRounds; ++n) {
+            const SurfaceSample a = field.sample_piece(pieces[0], q), b = field.sample_piece(pieces[1], q);
+            const double c = dot(a.normal, b.normal), sine2 = 1 - c * c;
+            if (a.piece != pieces[0] || b.piece != pieces[1] || sine2 < kLeastSine2) return std::nullopt;
+            const Vec3 way = normalized(cross(a.normal, b.normal));
+            if (std::abs(a.distance_mm) <= kOnBoth && std::abs(b.distance_mm) <= kOnBoth)
+                return Place{q, dot(way, along) < 0 ? -1 * way : way, {a.normal, b.normal}};
+            q -= ((a.distance_mm - c * b.distance_mm) * a.normal +
+                  (b.distance_mm - c * a.distance_mm) * b.normal) /
+                 sine2;
+        }
+        return std::nullopt;
+    }
+    std::optional<Place> next_to(const Place& place, double step_mm) const {
+        return beside(place.at + step_mm * place.along, place.along);
+    }
+};
+
+// From a place where the edge comes nearer to the point, in growing steps to one where it no longer does, and
+// from there by false position to where the way to the point is square to the edge.
+Edge::Place nearest_along(const Edge& edge, Vec3 point_mm, Edge::Place from, double first_mm,
+                          double least_mm) {
+    constexpr int kMostSteps = 24, kMostRefinements = 12;
+    constexpr double kGrows = 2, kLongest = 0.5;
+    const auto ahead_mm = [&](const Edge::Place& place) { return dot(point_mm - place.at, place.along); };
+    std::optional<Edge::Place> beyond;
+    double step_mm = first_mm;
+    for (int n = 0; n < kMostSteps && !beyond && step_mm >= least_mm; ++n) {
+        const auto next = edge.next_to(from, step_mm);
+        if (!next || std::abs(edge.field.distance_mm(next->at)) > kUnsure) {
+            step_mm /= kGrows * kGrows;
+        } else if (ahead_mm(*next) <= 0) {
+            beyond = next;
+        } else {
+            from = *next;
+            step_mm = std::min(kGrows * step_mm, kLongest * distance(point_mm, from.at));
+        }
+    }
+    // The Illinois way: what stays twice counts half.
+    double low = ahead_mm(from), high = beyond ? -ahead_mm(*beyond) : 0;
+    for (int n = 0, side = 0; n < kMostRefinements && low > 0 && high > 0; ++n) {
+        const auto middle = edge.next_to(from, low / (low + high) * distance(from.at, beyond->at));
+        if (!middle) break;
+        const double ahead = ahead_mm(*middle);
+        if (ahead > 0) {
+            from = *middle;
+            low = ahead;
+            high *= side > 0 ? 0.5 : 1;
+            side = 1;
+        } else {
+            beyond = middle;
+            high = -ahead;
+            low *= side < 0 ? 0.5 : 1;
+            side = -1;
+        }
+    }
+    return beyond && distance(point_mm, beyond->at) < distance(point_mm, from.at) ? *beyond : from;
+}
+
+// An edge that bends about the point nearly as a circle does hardly comes nearer over a long way: follows it
+// to its nearest place. Learns the bends of its sides.
+Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot) {
+    constexpr double kFirst = 5, kLeastAhead = 1e-5;
+    const HalfSpaces::Edge line = foot.sides.edge_at(foot.at_mm);
+    if (squared_length(line.along) == 0) return foot;
+    HalfSpace &a = foot.sides.side[line.sides[0]], &b = foot.sides.side[line.sides[1]];
+    const Edge edge{field, {a.piece, b.piece}};
+    auto here = edge.beside(foot.at_mm, line.along);
+    if (!here) return foot;
+    const double ahead_mm = dot(point_mm - here->at, here->along);
+    // On all but a circle about the point it is at the nearest place now.
+    if (std::abs(ahead_mm) <= kLeastAhead * foot.sample.distance_mm) return foot;
+    if (ahead_mm < 0) here->along = -1 * here->along;
+    const double least_mm = kBendStep * foot.sample.distance_mm;
+    const auto next = edge.next_to(*here, least_mm);
+    if (!next) return foot;
+    const double moved_mm = dot(next->at - here->at, here->along);
+    a.bend = dot(next->normals[0] - here->normals[0], here->along) / moved_mm;
+    b.bend = dot(next->normals[1] - here->normals[1], here->along) / moved_mm;
+    a.beside = b.piece;
+    b.beside = a.piece;
+    if (foot.sides.rest_on_bend(point_mm, line, foot.at_mm, foot.at_mm) > kRound) return foot;
+    const double first_mm = std::max(kFirst * std::abs(ahead_mm), least_mm);
+    const Edge::Place place = nearest_along(edge, point_mm, *here, first_mm, least_mm);
+    const double far_mm = distance(point_mm, place.at);
+    if (far_mm >= foot.sample.distance_mm) return foot;
+    foot.at_mm = place.at;
+    foot.sample.distance_mm = far_mm;
+    foot.sample.normal = (point_mm - place.at) / far_mm;
+    a.normal = place.normals[0];
+    b.normal = place.normals[1];
+    for (HalfSpace* side : {&a, &b}) side->offset = dot(side->normal, place.at);
+    return foot;
+}
+
+// The edge that a search was on as its rounds ran out, at the place beside it.
+Foot back_to_edge(const DistanceField& field, Vec3 point_mm, const Foot& lost) {
+    HalfSpaces sides = lost.sides;
+    if (sides.count < 2) return lost;
+    std::sort(sides.side.begin(), sides.side.begin() + sides.count, [&](const auto& a, const auto& b) {
+        return std::abs(a.above(lost.at_mm)) < std::abs(b.above(lost.at_mm));
+    });
+    sides.count = 2;
+    const Edge edge{field, {sides.side[0].piece, sides.side[1].piece}};
+    const auto place = edge.beside(lost.at_mm, Vec3{});
+    if (!place || std::abs(field.distance_mm(place->at)) > kOnSurface) return lost;
+    for (std::size_t n = 0; n < 2; ++n) {
+        sides.side[n].normal = place->normals[n];
+        sides.side[n].offset = dot(place->normals[n], place->at);
+    }
+    const double way = distance(point_mm, place->at);
+    return {{way, (point_mm - place->at) / way, sides.side[0].piece}, place->at, sides, true};
 }
 
 // Goes from a place along the surface of a hollow, in steps, as long as it comes nearer to the point.
@@ -211,7 +341,13 @@ SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& 
 
 Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
     Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {});
+    if (!foot.found) {
+        const Foot on = back_to_edge(field, point_mm, foot);
+        if (on.found)
+            foot = foot_from(field, point_mm, along_edge(field, point_mm, on).at_mm, longest_mm, {});
+    }
     if (!foot.found) foot = descend(field, point_mm, foot.at_mm);
+    if (foot.found && foot.sides.count > 1) foot = along_edge(field, point_mm, foot);
     if (!foot.found || foot.sides.count > 1) return foot;
     // If a hollow is narrower than the distance of the point over it, the foot point at its bottom is the
     // farthest place there. The nearest places are up its sides.
@@ -232,7 +368,8 @@ Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, doub
 }
 
 Foot nearest_on(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, const HalfSpaces& pieces) {
-    return foot_from(field, point_mm, start_mm, kAnyStep, pieces);
+    const Foot foot = foot_from(field, point_mm, start_mm, kAnyStep, pieces);
+    return foot.found && foot.sides.count > 1 ? along_edge(field, point_mm, foot) : foot;
 }
 
 }  // namespace tribo::contact

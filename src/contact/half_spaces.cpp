@@ -94,17 +94,24 @@ HalfSpaces::Edge HalfSpaces::edge_at(Vec3 at) const {
 
 // At the way s along the line the edge is at s^2 aside from it, so that it is on both sides: there the
 // distance to y has no rate by s where s (1 + 2 off aside) is the way to the nearest point on the line.
-Vec3 HalfSpaces::nearest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen) const {
-    constexpr double kLeastRest = 0.2;
+Vec3 HalfSpaces::aside_on_bend(const Edge& edge) const {
     const HalfSpace &a = side[edge.sides[0]], &b = side[edge.sides[1]];
-    const double c = dot(a.normal, b.normal), half = 0.5 / (1 - c * c), way = dot(edge.along, flat - seen),
+    const double c = dot(a.normal, b.normal), half = 0.5 / (1 - c * c),
                  bend_a = a.beside == b.piece ? a.bend : 0, bend_b = b.beside == a.piece ? b.bend : 0;
-    const Vec3 aside = half * ((c * bend_b - bend_a) * a.normal + (c * bend_a - bend_b) * b.normal);
-    const Vec3 off = flat - way * edge.along - y;
-    const double rest = 1 + 2 * dot(off, aside);
+    return half * ((c * bend_b - bend_a) * a.normal + (c * bend_a - bend_b) * b.normal);
+}
+
+double HalfSpaces::rest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen) const {
+    const Vec3 off = flat - dot(edge.along, flat - seen) * edge.along - y;
+    return 1 + 2 * dot(off, aside_on_bend(edge));
+}
+
+Vec3 HalfSpaces::nearest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen) const {
     // An edge that bends about y nearly as a circle does, or more, leads far: a step of some times the way.
-    const double bent = way / std::max(rest, kLeastRest);
-    return flat + (bent - way) * edge.along + bent * bent * aside;
+    constexpr double kLeastRest = 0.2;
+    const double way = dot(edge.along, flat - seen),
+                 bent = way / std::max(rest_on_bend(y, edge, flat, seen), kLeastRest);
+    return flat + (bent - way) * edge.along + bent * bent * aside_on_bend(edge);
 }
 
 HalfSpaces::Cone HalfSpaces::cone_to(Vec3 direction) const {

@@ -40,6 +40,9 @@ struct HalfSpaces {
         std::array<std::size_t, 2> sides{};
     };
     Edge edge_at(Vec3 at) const;
+    // Over a way s on an edge from its nearest place to y, the rest of the way to there grows by this share
+    // of s: 1 on a straight edge, 0 on a circle about y. `flat`, `seen`: as below.
+    double rest_on_bend(Vec3 y, const Edge& edge, Vec3 flat, Vec3 seen) const;
     // Returns the nearest point to y on an edge that bends, from `flat`, the nearest one on its line. The
     // planes are tangents at `seen`. Where the edge bends about y nearly as a circle does: a point farther
     // along.
@@ -54,6 +57,9 @@ struct HalfSpaces {
     };
     // Returns the sum that misses the direction (unit) least.
     Cone cone_to(Vec3 direction) const;
+
+  private:
+    Vec3 aside_on_bend(const Edge& edge) const;
 };
 
 }  // namespace tribo::contact

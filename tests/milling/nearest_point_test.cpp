@@ -327,6 +327,42 @@ TEST(NearestPoint, is_the_shortest_of_all_rays_over_passes_of_a_tilted_flat_cutt
     expect_nearest(part, {{2, 2, -2}, {6, 6, 1.5}}, 2, 10, 6);
 }
 
+// A point near the axis of a hole, or of the round end of a slot, is nearly as far from all of its mouth: an
+// edge that bends about the point as a circle does.
+TEST(NearestPoint, is_that_of_the_closed_form_over_the_mouths_of_holes_and_slots) {
+    const CounterNoise noise(23);
+    std::uint64_t drawn = 0;
+    const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(drawn++); };
+    for (int k = 0; k < 60; ++k) {
+        const bool is_slot = k % 3 == 0;  // of a ball: over its middle nothing is nearer than the mouth
+        const double tool = between(0.5, 3), cell = between(0.05, 0.3) * tool, edge = 2 * tool + 1,
+                     deep = is_slot ? between(0.2, 0.9) * tool : 1.9 * tool,
+                     mouth = is_slot ? std::sqrt(deep * (2 * tool - deep)) : tool,
+                     slot = is_slot ? between(0.5, 2) * tool : 0;
+        Carved part({{-edge, -edge, -2 * tool}, {edge + slot, edge, 0}}, cell);
+        motion::Move move;
+        move.start.tip_mm = {0, 0, is_slot ? -deep : 5};
+        move.end.tip_mm = {slot, 0, -deep};
+        part.mill(cutter_of(is_slot ? CutterKind::ball : CutterKind::flat, 2 * tool), move);
+        const double least_high = is_slot ? tool - deep : 0;
+        for (int walk = 0; walk < 20; ++walk) {
+            const double off = mouth * std::pow(10, between(-4, -0.5)),
+                         high = least_high + mouth * between(0.05, 0.7);
+            contact::NearHint hint;
+            double turn = between(-3, 3);
+            for (int n = 0; n < 20; ++n) {
+                turn += between(-0.3, 0.3);
+                const Vec3 p{off * std::cos(turn), off * std::sin(turn), high};
+                if (n == 0) hint.at_mm = hint.from_mm = p;
+                const double aside = std::hypot(p.x - std::clamp(p.x, 0.0, slot), p.y);
+                ASSERT_NEAR(part.stock.nearest(p, 4 * tool, hint).distance_mm,
+                            std::hypot(mouth - aside, high), kTruth)
+                    << k << " " << walk << " " << n;
+            }
+        }
+    }
+}
+
 // Ribs with sharp edges, and walls that lean.
 TEST(NearestPoint, is_the_shortest_of_all_rays_between_ribs) {
     for (const double lean : {0.0, 0.15}) {

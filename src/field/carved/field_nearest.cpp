@@ -325,7 +325,8 @@ FieldQuery::Followed FieldQuery::follow(Vec3 p, Vec3 last_mm, const contact::Hal
     } else if (const auto edge = sides.edge_at(start); squared_length(edge.along) > 0) {
         start = sides.nearest_on_bend(p, edge, start, last_mm);
     }
-    const contact::Foot foot = contact::nearest_on(NearBrick(*this, kAir), p, start, sides);
+    const NearBrick brick(*this, kAir);
+    const contact::Foot foot = contact::nearest_on(brick, p, start, sides);
     return {foot, foot.found && is_nearest(foot), sides.count == 1};
 }
 
