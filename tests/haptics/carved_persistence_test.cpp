@@ -231,11 +231,12 @@ TEST(CarvedPersistence, a_ball_as_wide_as_the_cutter_keeps_up_with_the_hand) {
 }
 
 // Where slots end and cross, a ball wider than they are lies on many edges at once. It goes on from there: it
-// does not try the same steps again and again while the hand moves away.
+// does not try the same steps again and again while the hand moves away. Of 400 drawn pieces these are the
+// ones on which it once did so for longest.
 TEST(CarvedPersistence, a_ball_on_the_edges_of_slots_never_stands_still_before_it_has_settled) {
     constexpr double kCutter = 1.5, kEdge = 14, kRadius = 2;
     constexpr int kSlots = 10, kTicks = 400, kLongest = 20;
-    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    for (const std::uint64_t seed : {2, 45, 78, 282, 311, 353}) {
         const CounterNoise noise(seed);
         std::uint64_t drawn = 0;
         const auto between = [&](double low, double high) {

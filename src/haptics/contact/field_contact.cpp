@@ -8,15 +8,9 @@
 namespace tribo::haptics {
 namespace {
 
-// A proxy within this of the surface is on it, mm. No shorter step is worth taking.
-constexpr double kSkin = 1e-6;
-// The same for a ball, whose nearest place the field finds within 2e-5.
-constexpr double kBallSkin = 4e-5;
 // The proxy has settled when its way along the surface is below this share of the penetration: the share of
 // the force's direction that is still wrong.
 constexpr double kSettled = 2e-3;
-// Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
-constexpr double kOneSide = 0.95;
 // A surface that faces away like this is the other side of a wall, or of a slot.
 constexpr double kOtherSide = -0.5;
 // A step that ends this share of its length above the surface has gone over an edge, that far below it into
@@ -25,22 +19,13 @@ constexpr double kOff = 0.5;
 // A step gains at least this share of what it promises; one over an edge goes no farther than this beyond the
 // probe.
 constexpr double kGain = 0.1, kBeyond = 1.25;
-// A refused step is followed by one of these shares, a taken one allows one longer by the inverse of the
-// first.
-constexpr double kShorter = 0.25, kLittleShorter = 0.75;
+// A refused step is followed by one of this share or of kShorter, a taken one allows one longer by the
+// inverse of that.
+constexpr double kLittleShorter = 0.75;
 // The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
 constexpr double kTouches = 0.01;
-constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
 // It is so many steps high at least: the next ones end at the same ball.
 constexpr double kStepsHigh = 2;
-// In flight, contact is made where the free ball is smaller than this share of the way to go, and of a ball's
-// radius.
-constexpr double kNear = 0.02, kNearBall = 0.1;
-// A flight so near to a surface, of a ball's radius, that the probe is not behind rises by this share of the
-// way to go.
-constexpr double kLow = 0.9, kLift = 0.1;
-// At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
-constexpr double kPeek = 1e-5, kGrazing = 0.1;
 // So far a corner is looked into behind its sides, mm, where the way between the others goes behind it by at
 // least this share.
 constexpr double kLook = 1e-3, kLeastBehind = 0.01;
@@ -51,13 +36,10 @@ constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
 // So often a proxy in material is pushed out; in a corner of bent sides each push takes most of the depth.
 constexpr int kMostPushes = 8;
-constexpr int kMostLinks = 24;       // of a chain of balls
 constexpr long kCostlySearches = 4;  // of a measurement
 // A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
 // the probe is in air.
 constexpr double kCreeping = 0.02, kStuckS = 3e-3;
-// Queries that a step may need before it can be taken back.
-constexpr int kStepQueries = 6;
 
 contact::HalfSpace side_of(Vec3 normal) {
     return {-normal, 0, 0};
@@ -69,10 +51,6 @@ Vec3 limited(Vec3 v, double most) {
 }
 
 }  // namespace
-
-double FieldContact::skin() const {
-    return gap_.radius_mm() > 0 ? kBallSkin : kSkin;
-}
 
 FieldContact::FieldContact(const contact::DistanceField& field, const ContactOptions& options)
     : field_(&field) {
@@ -136,114 +114,6 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
     return answer(probe);
-}
-
-// A ball as wide as a slot may be wedged at its mouth, where no free ball has room to lead it out. Where the
-// probe has long been in air, and no wall is between its centre and the proxy's, it begins anew from there.
-void FieldContact::release_stuck_proxy(Vec3 probe) {
-    stuck_s_ = 0;
-    const double room = measure(probe).gap_mm;
-    if (room <= kSkin) return;
-    Vec3 centre = at_.proxy;
-    for (int links = 0;; ++links) {
-        const double way = distance(probe, centre), free = clearance_mm(centre, way) + gap_.radius_mm();
-        if (way <= free) break;
-        if (free < kSkin || links == kMostLinks || !budget(1)) return;
-        centre += (free / way) * (probe - centre);
-    }
-    anchor_ = {probe, room};
-    at_.proxy = last_proxy_ = probe;
-    phase_ = Phase::free;
-}
-
-// Out of the material along its normals, until there is air.
-FieldContact::Next FieldContact::climb() {
-    const ProbeGap::Gap g = measure(at_.proxy);
-    if (g.gap_mm > kSkin) {
-        last_proxy_ = at_.proxy;
-        anchor_ = {at_.proxy, g.gap_mm};
-        phase_ = Phase::free;
-        return Next::more;
-    }
-    // A little more than the distance, so that the proxy comes to stand in air.
-    at_.proxy += (2 * kSkin - g.gap_mm) * g.normal;
-    return Next::more;
-}
-
-// From the anchor straight to the probe, through balls that hold no material.
-FieldContact::Next FieldContact::fly(Vec3 probe) {
-    // Further away than its radius a ball's nearest place is not measured.
-    const double unit = gap_.radius_mm() > 0 ? gap_.radius_mm() : 1e30;
-    Anchor a = anchor_;
-    for (;;) {
-        const double way = distance(probe, a.at);
-        if (way <= a.radius + kSkin) {
-            anchor_ = a;
-            at_.proxy = probe;
-            settled_ = true;
-            return Next::nothing;
-        }
-        if (a.radius < std::max(kSkin, std::min(kNear * way, kLow * unit))) {
-            // A surface that the probe is not behind does not hold it.
-            const ProbeGap::Gap g = measure(a.at);
-            const bool holds = dot(probe - a.at, g.normal) < -g.gap_mm;
-            if (a.radius < kSkin || (holds && a.radius < kNearBall * unit)) {
-                touch_down(probe, a, g);
-                return Next::more;
-            }
-            if (!holds) lift(a, g.normal, kLift * way);
-        }
-        anchor_ = a;
-        at_.proxy = a.at;
-        if (!budget(kStepQueries)) return Next::nothing;
-        a.at += (a.radius / way) * (probe - a.at);
-        a.radius = clearance_mm(a.at, distance(probe, a.at));
-    }
-}
-
-// Along a surface there is only room for small balls; a little above it the next ones are larger. Near a wall
-// there is less room so high, and more a little lower.
-void FieldContact::lift(Anchor& a, Vec3 up, double height) {
-    for (; height > 2 * a.radius && budget(kStepQueries); height *= kShorter) {
-        const Vec3 at = a.at + height * up;
-        const Anchor above{at, clearance_mm(at, height)};
-        if (above.radius > a.radius && height <= a.radius + above.radius) {
-            a = above;
-            return;
-        }
-    }
-}
-
-// At the surface that was seen next to a ball, or what is left of one, that reaches there.
-void FieldContact::touch_down(Vec3 probe, Anchor from, ProbeGap::Gap g) {
-    Vec3 seen_at = from.at;
-    const Vec3 ahead = normalized(probe - last_proxy_, -g.normal),
-               next_to = from.at + (g.gap_mm + kPeek) * ahead;
-    const ProbeGap::Gap beyond = measure(next_to);
-    // At a convex edge it is the face that the probe goes along, not the one that ends there.
-    if (beyond.gap_mm >= -2 * kSkin && std::abs(dot(beyond.normal, ahead)) < kGrazing) {
-        g = beyond;
-        seen_at = next_to;
-    }
-    at_ = {};
-    at_.proxy = seen_at - g.gap_mm * g.normal;
-    at_.touch(g);
-    at_.sides.put(side_of(g.normal), kOneSide);
-    // In a corner the side that was nearest may not be the one that holds.
-    if (dot(probe - at_.proxy, g.normal) >= 0 && beyond.gap_mm < 0 &&
-        dot(probe - next_to, beyond.normal) < 0) {
-        at_.proxy = next_to;
-        (void)correct(at_, beyond);
-    }
-    if (from.radius > anchor_.radius) anchor_ = from;
-    phase_ = Phase::touching;
-    sticking_ = true;
-    side_step_.reset();
-    height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
-    stride_mm_ = 1e30;
-    moved_ = false;
-    looked_sides_ = next_side_ = 0;
-    (void)tie(at_);
 }
 
 void FieldContact::Place::touch(const ProbeGap::Gap& seen) {
@@ -385,11 +255,6 @@ FieldContact::Next FieldContact::slide(Vec3 probe) {
     const double friction = moved_ ? options_.friction_kinetic : hold();
     if (way.rest_mm <= (friction + kSettled) * way.press_mm + kSkin) return come_to_rest(way);
     return take_step(probe, way);
-}
-
-FieldContact::Next FieldContact::take_off() {
-    phase_ = Phase::free;
-    return Next::more;
 }
 
 // Held: is there still a surface? In a corner: do all its sides hold?

@@ -93,6 +93,16 @@ class FieldContact {
     // After so many searches along the surface (NearHint) no further step begins in a tick. A ball about as
     // wide as the cutter was needs many.
     static constexpr long kMostSearches = 600;
+    // Queries that a step may need before it can be taken back, and links of a chain of balls.
+    static constexpr int kStepQueries = 6, kMostLinks = 24;
+    // A proxy within this of the surface is on it, mm. No shorter step is worth taking. Of a ball the field
+    // finds the nearest place within 2e-5.
+    static constexpr double kSkin = 1e-6, kBallSkin = 4e-5;
+    // Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
+    static constexpr double kOneSide = 0.95;
+    // A refused step is followed by one of this share.
+    static constexpr double kShorter = 0.25;
+    static constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
     // A place of the proxy on the surface.
     struct Place {
         Vec3 proxy, normal{0, 0, 1};
@@ -142,7 +152,7 @@ class FieldContact {
         ++queries_;
         return gap_.clearance_mm(*field_, at, enough_mm, over_touch);
     }
-    double skin() const;
+    double skin() const { return gap_.radius_mm() > 0 ? kBallSkin : kSkin; }
     double hold() const { return sticking_ ? options_.friction_static : options_.friction_kinetic; }
 
     const contact::DistanceField* field_;
