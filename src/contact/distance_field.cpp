@@ -255,42 +255,6 @@ Edge::Place nearest_along(const Edge& edge, Vec3 point_mm, Edge::Place from, dou
     return beyond && distance(point_mm, beyond->at) < distance(point_mm, from.at) ? *beyond : from;
 }
 
-// An edge that bends about the point nearly as a circle does hardly comes nearer over a long way: follows it
-// to its nearest place. Learns the bends of its sides.
-Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot) {
-    constexpr double kFirst = 5, kLeastAhead = 1e-5;
-    const HalfSpaces::Edge line = foot.sides.edge_at(foot.at_mm);
-    if (squared_length(line.along) == 0) return foot;
-    HalfSpace &a = foot.sides.side[line.sides[0]], &b = foot.sides.side[line.sides[1]];
-    const Edge edge{field, {a.piece, b.piece}};
-    auto here = edge.beside(foot.at_mm, line.along);
-    if (!here) return foot;
-    const double ahead_mm = dot(point_mm - here->at, here->along);
-    // On all but a circle about the point it is at the nearest place now.
-    if (std::abs(ahead_mm) <= kLeastAhead * foot.sample.distance_mm) return foot;
-    if (ahead_mm < 0) here->along = -1 * here->along;
-    const double least_mm = kBendStep * foot.sample.distance_mm;
-    const auto next = edge.next_to(*here, least_mm);
-    if (!next) return foot;
-    const double moved_mm = dot(next->at - here->at, here->along);
-    a.bend = dot(next->normals[0] - here->normals[0], here->along) / moved_mm;
-    b.bend = dot(next->normals[1] - here->normals[1], here->along) / moved_mm;
-    a.beside = b.piece;
-    b.beside = a.piece;
-    if (foot.sides.rest_on_bend(point_mm, line, foot.at_mm, foot.at_mm) > kRound) return foot;
-    const double first_mm = std::max(kFirst * std::abs(ahead_mm), least_mm);
-    const Edge::Place place = nearest_along(edge, point_mm, *here, first_mm, least_mm);
-    const double far_mm = distance(point_mm, place.at);
-    if (far_mm >= foot.sample.distance_mm) return foot;
-    foot.at_mm = place.at;
-    foot.sample.distance_mm = far_mm;
-    foot.sample.normal = (point_mm - place.at) / far_mm;
-    a.normal = place.normals[0];
-    b.normal = place.normals[1];
-    for (HalfSpace* side : {&a, &b}) side->offset = dot(side->normal, place.at);
-    return foot;
-}
-
 // The edge that a search was on as its rounds ran out, at the place beside it.
 Foot back_to_edge(const DistanceField& field, Vec3 point_mm, const Foot& lost) {
     HalfSpaces sides = lost.sides;
@@ -339,6 +303,41 @@ SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& 
     return foot.sample;
 }
 
+Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot) {
+    constexpr double kFirst = 5, kLeastAhead = 1e-5;
+    if (!foot.found || foot.sides.count < 2) return foot;
+    const HalfSpaces::Edge line = foot.sides.edge_at(foot.at_mm);
+    if (squared_length(line.along) == 0) return foot;
+    HalfSpace &a = foot.sides.side[line.sides[0]], &b = foot.sides.side[line.sides[1]];
+    const Edge edge{field, {a.piece, b.piece}};
+    auto here = edge.beside(foot.at_mm, line.along);
+    if (!here) return foot;
+    const double ahead_mm = dot(point_mm - here->at, here->along);
+    // On all but a circle about the point it is at the nearest place now.
+    if (std::abs(ahead_mm) <= kLeastAhead * foot.sample.distance_mm) return foot;
+    if (ahead_mm < 0) here->along = -1 * here->along;
+    const double least_mm = kBendStep * foot.sample.distance_mm;
+    const auto next = edge.next_to(*here, least_mm);
+    if (!next) return foot;
+    const double moved_mm = dot(next->at - here->at, here->along);
+    a.bend = dot(next->normals[0] - here->normals[0], here->along) / moved_mm;
+    b.bend = dot(next->normals[1] - here->normals[1], here->along) / moved_mm;
+    a.beside = b.piece;
+    b.beside = a.piece;
+    if (foot.sides.rest_on_bend(point_mm, line, foot.at_mm, foot.at_mm) > kRound) return foot;
+    const double first_mm = std::max(kFirst * std::abs(ahead_mm), least_mm);
+    const Edge::Place place = nearest_along(edge, point_mm, *here, first_mm, least_mm);
+    const double far_mm = distance(point_mm, place.at);
+    if (far_mm >= foot.sample.distance_mm) return foot;
+    foot.at_mm = place.at;
+    foot.sample.distance_mm = far_mm;
+    foot.sample.normal = (point_mm - place.at) / far_mm;
+    a.normal = place.normals[0];
+    b.normal = place.normals[1];
+    for (HalfSpace* side : {&a, &b}) side->offset = dot(side->normal, place.at);
+    return foot;
+}
+
 Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
     Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {});
     if (!foot.found) {
@@ -347,7 +346,7 @@ Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, doub
             foot = foot_from(field, point_mm, along_edge(field, point_mm, on).at_mm, longest_mm, {});
     }
     if (!foot.found) foot = descend(field, point_mm, foot.at_mm);
-    if (foot.found && foot.sides.count > 1) foot = along_edge(field, point_mm, foot);
+    foot = along_edge(field, point_mm, foot);
     if (!foot.found || foot.sides.count > 1) return foot;
     // If a hollow is narrower than the distance of the point over it, the foot point at its bottom is the
     // farthest place there. The nearest places are up its sides.
@@ -368,8 +367,7 @@ Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, doub
 }
 
 Foot nearest_on(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, const HalfSpaces& pieces) {
-    const Foot foot = foot_from(field, point_mm, start_mm, kAnyStep, pieces);
-    return foot.found && foot.sides.count > 1 ? along_edge(field, point_mm, foot) : foot;
+    return foot_from(field, point_mm, start_mm, kAnyStep, pieces);
 }
 
 }  // namespace tribo::contact

@@ -100,4 +100,9 @@ Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, doub
 // these do not lead to the surface, and gives up where nearest_from goes on to search.
 Foot nearest_on(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, const HalfSpaces& pieces);
 
+// From a place on an edge: where that bends about the point nearly as a circle does, it hardly comes nearer
+// over a long way, and the searches end too early. Follows it to its nearest place, and learns the bends of
+// its sides. Any other place stays as it is. nearest_from does so itself.
+Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot);
+
 }  // namespace tribo::contact

@@ -326,7 +326,7 @@ FieldQuery::Followed FieldQuery::follow(Vec3 p, Vec3 last_mm, const contact::Hal
         start = sides.nearest_on_bend(p, edge, start, last_mm);
     }
     const NearBrick brick(*this, kAir);
-    const contact::Foot foot = contact::nearest_on(brick, p, start, sides);
+    const contact::Foot foot = contact::along_edge(brick, p, contact::nearest_on(brick, p, start, sides));
     return {foot, foot.found && is_nearest(foot), sides.count == 1};
 }
 
@@ -438,8 +438,10 @@ bool FieldQuery::NearestSearch::is_among_known() {
     for (int n = 0; n < hint_.others; ++n) {
         contact::KnownPlace& other = hint_.other[static_cast<std::size_t>(n)];
         if (found_.distance_mm() - (other.far_mm - moved_mm) <= kOnSurface) continue;
-        contact::Foot foot = field_.follow(p_, other.at_mm, other.sides, false).foot;
-        if (foot.found)
+        // A place on a smooth side may slide over its edge: only an edge is followed.
+        contact::Foot foot;
+        if (other.sides.count > 1) foot = field_.follow(p_, other.at_mm, other.sides, false).foot;
+        if (foot.found && foot.sides.count > 1)
             found_.put(foot);
         else if (const auto searched = search_at(other.at_mm))
             foot = *searched;
