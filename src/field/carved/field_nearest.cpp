@@ -164,10 +164,10 @@ class NearestPlaces {
         const auto is_same = [&](const contact::Foot& other) {
             return distance(foot.at_mm, other.at_mm) <= kSameFoot;
         };
-        const auto same = std::find_if(place_.begin(), place_.begin() + count_, is_same);
-        std::size_t n = static_cast<std::size_t>(same - place_.begin());
+        std::size_t n = 0;
+        while (n < count_ && !is_same(place_[n])) ++n;
         if (n < count_) {
-            if (!is_nearer(foot, *same)) return;
+            if (!is_nearer(foot, place_[n])) return;
         } else if (count_ < place_.size()) {
             ++count_;
         } else {
