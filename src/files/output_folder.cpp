@@ -64,7 +64,8 @@ FileResult<void> check_names(const std::string& target, const std::string& shown
     if (!others) return std::unexpected(others.error());
     for (const std::string& name : *others) {
         if (!writes(name)) continue;
-        return refuse(shown + "/" + name, "tribo did not write this file and would replace it",
+        return refuse(std::string(shown).append("/").append(name),
+                      "tribo did not write this file and would replace it",
                       "move it, or name another folder");
     }
     return {};

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 #include "contact/distance_field.hpp"
 
@@ -68,7 +69,8 @@ class ProbeGap {
     void nearest_first(Vec3 position_mm, double most, const Ask& ask);
 
     double radius_;
-    std::array<Ball, kMostBalls> ball_;
+    // Made at once: more than a small stack holds.
+    std::vector<Ball> ball_ = std::vector<Ball>(kMostBalls);
     std::size_t count_ = 1, last_ = 0;
     long queries_ = 0, searches_ = 0;
 };
