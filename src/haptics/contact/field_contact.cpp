@@ -89,6 +89,8 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     last_proxy_ = at_.proxy;
     settled_ = braced_ = moved_ = looked_ = false;
     side_step_.interrupt();
+    // What stopped a ball's shortest steps may be no finer than its nearest places are found: once more from
+    // far.
     if (stride_mm_ < kLowest) stride_mm_ = gap_.radius_mm() > 0 ? 1e30 : kLowest;
     if (phase_ == Phase::touching && stuck_s_ >= kStuckS) release_stuck_proxy(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
