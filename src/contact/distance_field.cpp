@@ -90,8 +90,8 @@ bool lists(const HalfSpaces& sides, std::uint32_t piece) {
 
 // Until the pieces in `sides` have led to a place that is not on the surface, the field is not asked for
 // others. Along an edge each step is Newton's, with the bend of the sides over the step before (a secant).
-Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm,
-               HalfSpaces sides) {
+Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm, HalfSpaces sides,
+               Trail* trail = nullptr) {
     Vec3 q = start_mm;
     bool ask = sides.count == 0;
     bool there = !ask;      // q is the nearest point of all sides, not a point on the way to it
@@ -133,6 +133,8 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             // The own answers of the pieces are the better ones.
             const bool is_known = std::abs(s.distance_mm) <= kUnsure && std::abs(above_mm) <= kOnSurface &&
                                   lists(sides, s.piece);
+            if (trail && n > 0 && std::abs(s.distance_mm) <= kUnsure && squared_length(edge.along) > 0)
+                trail->put({q, edge.along});
             if (!is_known) {
                 const int known = sides.count;
                 sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
@@ -216,8 +218,8 @@ struct Edge {
 
 // From a place where the edge comes nearer to the point, in growing steps to one where it no longer does, and
 // from there by false position to where the way to the point is square to the edge.
-Edge::Place nearest_along(const Edge& edge, Vec3 point_mm, Edge::Place from, double first_mm,
-                          double least_mm) {
+Edge::Place nearest_along(const Edge& edge, Vec3 point_mm, Edge::Place from, double first_mm, double least_mm,
+                          Trail* trail) {
     constexpr int kMostSteps = 24, kMostRefinements = 12;
     constexpr double kGrows = 2, kLongest = 0.5;
     const auto ahead_mm = [&](const Edge::Place& place) { return dot(point_mm - place.at, place.along); };
@@ -231,6 +233,7 @@ Edge::Place nearest_along(const Edge& edge, Vec3 point_mm, Edge::Place from, dou
             beyond = next;
         } else {
             from = *next;
+            if (trail) trail->put({from.at, from.along});
             step_mm = std::min(kGrows * step_mm, kLongest * distance(point_mm, from.at));
         }
     }
@@ -303,7 +306,7 @@ SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& 
     return foot.sample;
 }
 
-Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot) {
+Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot, Trail* trail) {
     constexpr double kFirst = 5, kLeastAhead = 1e-5;
     if (!foot.found || foot.sides.count < 2) return foot;
     const HalfSpaces::Edge line = foot.sides.edge_at(foot.at_mm);
@@ -326,7 +329,7 @@ Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot) {
     b.beside = a.piece;
     if (foot.sides.rest_on_bend(point_mm, line, foot.at_mm, foot.at_mm) > kRound) return foot;
     const double first_mm = std::max(kFirst * std::abs(ahead_mm), least_mm);
-    const Edge::Place place = nearest_along(edge, point_mm, *here, first_mm, least_mm);
+    const Edge::Place place = nearest_along(edge, point_mm, *here, first_mm, least_mm, trail);
     const double far_mm = distance(point_mm, place.at);
     if (far_mm >= foot.sample.distance_mm) return foot;
     foot.at_mm = place.at;
@@ -338,15 +341,16 @@ Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot) {
     return foot;
 }
 
-Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm) {
-    Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {});
+Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm, Trail* trail) {
+    Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {}, trail);
     if (!foot.found) {
         const Foot on = back_to_edge(field, point_mm, foot);
         if (on.found)
-            foot = foot_from(field, point_mm, along_edge(field, point_mm, on).at_mm, longest_mm, {});
+            foot = foot_from(field, point_mm, along_edge(field, point_mm, on, trail).at_mm, longest_mm, {},
+                             trail);
     }
     if (!foot.found) foot = descend(field, point_mm, foot.at_mm);
-    foot = along_edge(field, point_mm, foot);
+    foot = along_edge(field, point_mm, foot, trail);
     if (!foot.found || foot.sides.count > 1) return foot;
     // If a hollow is narrower than the distance of the point over it, the foot point at its bottom is the
     // farthest place there. The nearest places are up its sides.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "base/vec3.hpp"
 #include "contact/half_spaces.hpp"
@@ -87,14 +88,31 @@ struct Foot {
     bool found = false;
 };
 
+// Places of edges that a search has passed on its way to the nearest one: the first of them.
+class Trail {
+  public:
+    struct Place {
+        Vec3 at_mm, along;  // `along`: of the edge, unit
+    };
+    void put(const Place& one) {
+        if (count_ < place_.size()) place_[count_++] = one;
+    }
+    std::span<const Place> all() const { return {place_.data(), count_}; }
+
+  private:
+    std::array<Place, 32> place_;
+    std::size_t count_ = 0;
+};
+
 // Finds the surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting
 // planes. The material near it is the intersection of half-spaces, one for each piece found; each is renewed
 // at the last result. Exact on edges and corners. At most 16 rounds of one sample and the pieces found; if
 // these are not enough, it follows the surface down in at most 24 steps. Out of a hollow that is nearly round
 // about the point it does the same to both sides. If nothing is found, returns a lower bound of the distance.
 // Real-time safe. The steps of the rounds are at most `longest_mm` long, because curved pieces must be found
-// where they meet each other.
-Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm = 1e9);
+// where they meet each other. Adds the places of edges that it passes to `trail`.
+Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm = 1e9,
+                  Trail* trail = nullptr);
 
 // The same for a place on pieces that are known, from a start near it: asks the field for others only where
 // these do not lead to the surface, and gives up where nearest_from goes on to search.
@@ -103,6 +121,6 @@ Foot nearest_on(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, const 
 // From a place on an edge: where that bends about the point nearly as a circle does, it hardly comes nearer
 // over a long way, and the searches end too early. Follows it to its nearest place, and learns the bends of
 // its sides. Any other place stays as it is. nearest_from does so itself.
-Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot);
+Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot, Trail* trail = nullptr);
 
 }  // namespace tribo::contact

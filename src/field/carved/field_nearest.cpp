@@ -30,6 +30,9 @@ constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
 // A ball at a surface point is proven to be air by balls in the shapes that meet there, larger by the inverse
 // of this share.
 constexpr double kOfInnerBall = 0.9;
+// Searches that pass the same place of an edge end at the same place, unless the edge comes nearer there by
+// less than this share of its length: nearly round about the point, it has no clear end.
+constexpr double kComesNearer = 5e-3;
 // Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
 // may pass over the cusp beside the start.
 constexpr double kLongestCells = 0.65;
@@ -351,6 +354,7 @@ class FieldQuery::NearestSearch {
     contact::NearHint& hint_;
     NearestPlaces found_;
     bool is_proven_ = false;     // the best one is the nearest
+    contact::Trail trail_;       // of the last search
     Vec3 refuted_{1e300, 0, 0};  // the last foot point that was not on the surface
 };
 
@@ -399,7 +403,8 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search(BrickRef ref, Vec
     for (int tries = 0; tries < 2; ++tries) {
         ++hint_.searches;
         const NearBrick brick(field_, ref);
-        const contact::Foot foot = contact::nearest_from(brick, p_, from, kLongestCells * field_.cell_mm);
+        const contact::Foot foot =
+            contact::nearest_from(brick, p_, from, kLongestCells * field_.cell_mm, &trail_);
         const contact::SurfaceSample at_foot = field_.sample(foot.at_mm);
         if (foot.found && std::abs(at_foot.distance_mm) <= kOnSurface) {
             found_.put(foot);
@@ -471,7 +476,9 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     double way = 0;
     int searches = 0;
     bool all_looked = true;
-    SeenPlace seen[2 * kMostSearches + 2];  // start and end points of the searches
+    // Start and end points of the searches, and places of the edges that they passed.
+    constexpr std::size_t kMostPassed = 200;
+    SeenPlace seen[kMostPassed + 2 * kMostSearches + 2];
     std::size_t count = 0;
     ShownSurface shown(field_, p_);
     const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
@@ -496,6 +503,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
                 break;
             }
             if (++searches > kMostSearches) break;
+            trail_ = {};
             const std::optional<contact::Foot> foot = search(ref, field_.surface_behind(start.at, p_));
             if (is_proven_) return found_.best();
             if (!foot) {
@@ -506,6 +514,15 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             start.along = end.along;
             seen[count++] = start;
             seen[count++] = end;
+            for (const contact::Trail::Place& passed : trail_.all()) {
+                if (count >= kMostPassed) break;
+                SeenPlace on_way = end;
+                on_way.at = passed.at_mm;
+                on_way.along = passed.along;
+                on_way.normal = normalized(p_ - passed.at_mm, end.normal);
+                on_way.ahead_mm = std::abs(dot(p_ - passed.at_mm, passed.along));
+                if (on_way.ahead_mm >= kComesNearer * distance(p_, passed.at_mm)) seen[count++] = on_way;
+            }
         }
         if (searches > kMostSearches) {
             all_looked = false;
@@ -526,8 +543,8 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
                     hint_.other[static_cast<std::size_t>(hint_.others++)] = {foot.at_mm, foot.sides,
                                                                              foot.sample.distance_mm};
             }
-            hint_.settled_mm =
-                shown.settled_mm(reach() - found_.distance_mm(), {known.data(), found_.all().size()});
+            hint_.settled_mm = shown.settled_mm(reach() - found_.distance_mm(),
+                                                {known.data(), found_.all().size()}, {seen, count});
         }
         return found_.best();
     }

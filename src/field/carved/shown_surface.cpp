@@ -242,7 +242,8 @@ bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPl
     return false;
 }
 
-double ShownSurface::settled_mm(double most_mm, std::span<const SeenPlace> known) const {
+double ShownSurface::settled_mm(double most_mm, std::span<const SeenPlace> known,
+                                std::span<const SeenPlace> seen) const {
     const double nearest_mm = distance(known.front().at, point_);
     const auto is_of = [&](const SeenPlace& found, const SeenPlace& shown) {
         const bool edge = squared_length(found.along) > 0;
@@ -258,7 +259,13 @@ double ShownSurface::settled_mm(double most_mm, std::span<const SeenPlace> known
         if (nearer_mm >= settled ||
             std::ranges::any_of(known, [&](const SeenPlace& found) { return is_of(found, one.place); }))
             continue;
-        settled = std::min(settled, std::max(nearer_mm, steepest_fall_mm(one)));
+        double way_mm = std::max(nearer_mm, steepest_fall_mm(one));
+        for (const SeenPlace& passed : seen) {
+            const double ahead_mm =
+                std::min(passed.ahead_mm, std::abs(dot(point_ - one.place.at, passed.along)));
+            if (ahead_mm > way_mm && is_alike(passed, one.place, field_->per_cell)) way_mm = ahead_mm;
+        }
+        settled = std::min(settled, way_mm);
         if (settled < kTooLittle * field_->cell_mm) return 0;
     }
     return settled;

@@ -9,14 +9,15 @@
 
 namespace tribo::field {
 
-// A place on the surface, as a node shows it or where a search ended.
+// A place on the surface, as a node shows it, or where a search ended or passed.
 struct SeenPlace {
     Vec3 at, normal;
     Vec3 along;           // of the edge to which a search led from there; zero if to none
-    bool ended = false;   // a search ended there
+    bool ended = false;   // a search ended or passed there
     ShapeId shape = 0;    // that gives the distance at the node, or of one side of the edge
     ShapeId beside = 0;   // of the other side of the edge
     bool corner = false;  // the node is near a corner: the place may be in the air before it
+    double ahead_mm = 0;  // where a search passed on an edge: how much of the way to the point is along it
 };
 
 // Whether searches from both places lead to the same one. Surface that faces another way is the other side of
@@ -47,7 +48,9 @@ class ShownSurface {
     bool is_whole() const { return whole_; }
     // How far the point may move, up to `most_mm`, until a place that does not belong to those that are
     // known, the nearest one first, may become the nearest of its neighbourhood, and nearer than these.
-    double settled_mm(double most_mm, std::span<const SeenPlace> known) const;
+    // `seen`: what take() was given.
+    double settled_mm(double most_mm, std::span<const SeenPlace> known,
+                      std::span<const SeenPlace> seen) const;
 
   private:
     void put(const ShownPlace& one);
