@@ -120,7 +120,8 @@ Foot nearest_on(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, const 
 
 // From a place on an edge: where that bends about the point nearly as a circle does, it hardly comes nearer
 // over a long way, and the searches end too early. Follows it to its nearest place, and learns the bends of
-// its sides. Any other place stays as it is. nearest_from does so itself.
+// its sides. Any other place stays as it is. nearest_from does so itself. Adds the places on the way to
+// `trail`.
 Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot, Trail* trail = nullptr);
 
 }  // namespace tribo::contact
