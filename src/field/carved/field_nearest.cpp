@@ -6,6 +6,8 @@
 #include <span>
 
 #include "field/carved/field_query.hpp"
+#include "field/carved/near_bricks.hpp"
+#include "field/carved/nearest_places.hpp"
 #include "field/carved/shown_surface.hpp"
 
 namespace tribo::field {
@@ -18,15 +20,12 @@ constexpr double kOnSurface = 2e-5;
 constexpr double kStep = 7e-5;
 // A step that nothing notices, mm.
 constexpr double kNoStep = 1e-6;
-// Largest number of bricks on each side in a search for the nearest surface.
-constexpr int kMostReach = 6;
 // Searches for one point, and in one brick.
 constexpr int kMostSearches = 24, kMostStarts = 10;
 // Steps from a place that the grid shows down to the surface.
 constexpr int kMostDown = 8;
-// Nearest places that are this far apart are two places, mm; how much farther than the nearest one others are
-// searched.
-constexpr double kSameFoot = 0.01, kMarginCells = 0.1;
+// How much farther than the nearest place others are searched.
+constexpr double kMarginCells = 0.1;
 // A ball at a surface point is proven to be air by balls in the shapes that meet there, larger by the inverse
 // of this share.
 constexpr double kOfInnerBall = 0.9;
@@ -147,129 +146,6 @@ bool FieldQuery::is_nearest(const contact::Foot& foot) const {
     }
     return cone.count > 0 && nearer <= kOnSurface;
 }
-
-// The nearest places of the surface found so far that are nearer than `within_mm`, and the distance of all
-// the rest of them.
-class NearestPlaces {
-  public:
-    explicit NearestPlaces(double within_mm)
-        : within_mm_(within_mm),
-          rest_mm_(within_mm),
-          none_{{within_mm, {0, 0, 1}, 0}, {1e300, 0, 0}, {}, false} {}
-
-    std::span<const contact::Foot> all() const { return {place_.data(), count_}; }
-    const contact::Foot& best() const { return count_ > 0 ? place_[0] : none_; }
-    bool none() const { return count_ == 0; }
-    double distance_mm() const { return count_ > 0 ? place_[0].sample.distance_mm : within_mm_; }
-    double rest_mm() const { return rest_mm_; }
-    void put(const contact::Foot& foot) {
-        if (foot.sample.distance_mm >= within_mm_) return;
-        const auto is_same = [&](const contact::Foot& other) {
-            return distance(foot.at_mm, other.at_mm) <= kSameFoot;
-        };
-        std::size_t n = 0;
-        while (n < count_ && !is_same(place_[n])) ++n;
-        if (n < count_) {
-            if (!is_nearer(foot, place_[n])) return;
-        } else if (count_ < place_.size()) {
-            ++count_;
-        } else {
-            --n;
-            rest_mm_ = std::min(rest_mm_, std::max(foot, place_[n], is_nearer).sample.distance_mm);
-            if (!is_nearer(foot, place_[n])) return;
-        }
-        for (; n > 0 && is_nearer(foot, place_[n - 1]); --n) place_[n] = place_[n - 1];
-        place_[n] = foot;
-    }
-
-  private:
-    static bool is_nearer(const contact::Foot& a, const contact::Foot& b) {
-        return a.sample.distance_mm < b.sample.distance_mm;
-    }
-
-    double within_mm_, rest_mm_;
-    contact::Foot none_;
-    std::array<contact::Foot, 1 + contact::NearHint::kMostOthers> place_;
-    std::size_t count_ = 0;
-};
-
-// The bricks within `bound_mm` of a point that may contain material, and the distance up to which all of them
-// are listed.
-class FieldQuery::Candidates {
-  public:
-    Candidates(const FieldQuery& field, BrickCoord here, Vec3 p, double bound_mm) {
-        const double brick_mm = kBrickCells * field.cell_mm;
-        const Vec3 corner = field.lattice(here).node(0, 0, 0);
-        const auto low = [&](double from, double at) {
-            return std::max(-kMostReach, static_cast<int>(std::floor((at - bound_mm - from) / brick_mm)));
-        };
-        const auto high = [&](double from, double at) {
-            return std::min(kMostReach, static_cast<int>(std::floor((at + bound_mm - from) / brick_mm)));
-        };
-        const auto gap = [&](double from, int n, double at) {
-            return std::max({0.0, from + n * brick_mm - at, at - from - (n + 1) * brick_mm});
-        };
-        const auto face = [&](double from, double at) { return std::min(at - from, from + brick_mm - at); };
-        seen_mm_ =
-            kMostReach * brick_mm + std::min({face(corner.x, p.x), face(corner.y, p.y), face(corner.z, p.z)});
-        const double most = bound_mm * bound_mm;
-        for (int k = low(corner.z, p.z); k <= high(corner.z, p.z); ++k) {
-            const double z = gap(corner.z, k, p.z), zz = z * z;
-            if (zz >= most) continue;
-            for (int j = low(corner.y, p.y); j <= high(corner.y, p.y); ++j) {
-                const double y = gap(corner.y, j, p.y), yz = zz + y * y;
-                if (yz >= most) continue;
-                for (int i = low(corner.x, p.x); i <= high(corner.x, p.x); ++i) {
-                    const double x = gap(corner.x, i, p.x), square = yz + x * x;
-                    if (square >= most) continue;
-                    const BrickCoord b{here.i + i, here.j + j, here.k + k};
-                    if (field.bricks.contains(b) && field.bricks.get(b) != kAir) put({square, b});
-                }
-            }
-        }
-    }
-    // Takes the nearest brick that was not taken yet, if there is one within `bound_mm`.
-    bool take(double bound_mm, BrickCoord& b, double& distance_mm) {
-        std::size_t least = count_;
-        double square = bound_mm * bound_mm;
-        for (std::size_t n = 0; n < count_; ++n) {
-            if (all_[n].square < square) {
-                square = all_[n].square;
-                least = n;
-            }
-        }
-        if (least == count_) return false;
-        b = all_[least].brick;
-        distance_mm = std::sqrt(square);
-        all_[least] = all_[--count_];
-        return true;
-    }
-    // All bricks up to this distance are listed.
-    double seen_mm() const { return seen_mm_; }
-
-  private:
-    struct One {
-        double square;
-        BrickCoord brick;
-    };
-    void put(const One& one) {
-        const auto nearer = [](const One& a, const One& b) { return a.square < b.square; };
-        if (count_ < all_.size()) {
-            all_[count_++] = one;
-            if (count_ == all_.size()) std::ranges::make_heap(all_, nearer);
-            return;
-        }
-        One& farthest = all_.front();
-        seen_mm_ = std::min(seen_mm_, std::sqrt(std::max(farthest.square, one.square)));
-        if (one.square >= farthest.square) return;
-        std::ranges::pop_heap(all_, nearer);
-        all_.back() = one;
-        std::ranges::push_heap(all_, nearer);
-    }
-    std::array<One, 192> all_;
-    std::size_t count_ = 0;
-    double seen_mm_ = 0;
-};
 
 // Over a cusp the grid shows a place in the air between its sides. Returns the surface behind it, seen from
 // the point.
@@ -470,7 +346,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     const auto reach = [&] {
         return std::min(found_.distance_mm() + kMarginCells * field_.cell_mm, within_mm_);
     };
-    Candidates bricks_near(field_, field_.brick_at(p_), p_, reach());
+    NearBricks bricks_near(field_, field_.brick_at(p_), p_, reach());
     const double proven = bricks_near.seen_mm();
     BrickCoord b;
     double way = 0;

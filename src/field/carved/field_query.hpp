@@ -111,7 +111,6 @@ struct FieldQuery {
     double clear_way_mm(Vec3 point_mm, double enough_mm) const;
 
   private:
-    class Candidates;
     class NearestSearch;
     // Index of the shape that gives the distance at the nearest node.
     std::uint16_t likely_in(const Brick& brick, Vec3 point_mm) const {
