@@ -293,6 +293,22 @@ Vec3 out_of_hollow(const DistanceField& field, Vec3 point_mm, Vec3 q, Vec3 step_
 
 }  // namespace
 
+void Trail::lead_to(Vec3 end_mm, double near_mm, Vec3 point_mm) {
+    std::size_t kept = 0;
+    for (const Place& one : all()) {
+        if (distance(one.at_mm, end_mm) < near_mm) continue;
+        const double sense = dot(point_mm - one.at_mm, one.along) < 0 ? -1 : 1;
+        place_[kept++] = {one.at_mm, sense * one.along};
+    }
+    count_ = kept;
+}
+
+double Trail::lasts_mm(Vec3 point_mm) const {
+    double least = kAnyStep;
+    for (const Place& one : all()) least = std::min(least, dot(point_mm - one.at_mm, one.along));
+    return least;
+}
+
 SurfaceSample DistanceField::nearest(Vec3 point_mm, double within_mm, NearHint& hint) const {
     const SurfaceSample here = sample(point_mm);
     if (here.distance_mm <= 0 || here.distance_mm >= within_mm) return here;

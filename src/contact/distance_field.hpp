@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -17,6 +18,58 @@ struct SurfaceSample {
     double distance_mm = 0;   // negative in material
     Vec3 normal{0, 0, 1};     // unit, out of the material
     std::uint32_t piece = 0;  // the smooth part of the surface that gave the result, if the field knows it
+};
+
+// Places of edges that a search has passed on its way to the nearest one, in the order of the way: the first
+// of them.
+class Trail {
+  public:
+    struct Place {
+        Vec3 at_mm, along;  // `along`: of the edge, unit
+    };
+    void put(const Place& one) {
+        if (count_ < place_.size()) place_[count_++] = one;
+    }
+    std::span<const Place> all() const { return {place_.data(), count_}; }
+    // Leaves out the places less than `near_mm` from the end of the search, and turns the edges so that they
+    // come nearer to the point.
+    void lead_to(Vec3 end_mm, double near_mm, Vec3 point_mm);
+    // After that: over this way of the point, mm, the edges still come nearer to it at all places.
+    double lasts_mm(Vec3 point_mm) const;
+
+  private:
+    std::array<Place, 32> place_;
+    std::size_t count_ = 0;
+};
+
+// Searches along the surface for points nearby, by where they began: from there a search for a point a little
+// away ends at the same place. About 500 kB large.
+class SearchMemory {
+  public:
+    struct Search {
+        Vec3 start_mm, point_mm;
+        // Over this way of the point, mm, the surface comes nearer to it from the start to the first edge.
+        double lasts_mm = 0;
+        Trail trail;  // `along`: towards the end
+        Vec3 end_mm;
+        HalfSpaces sides;          // that met at the end; none: nothing is remembered
+        std::uint64_t change = 0;  // number of the state of the field
+    };
+    // Where the search from a start is remembered. Another one may be there.
+    Search& from(Vec3 start_mm) {
+        // Any spread of nearby starts does: those of one grid differ by parts of a cell.
+        const double mixed = 7919 * start_mm.x + 104729 * start_mm.y + 1299709 * start_mm.z;
+        constexpr int kUpperBits = 64 - kBits;
+        return search_[std::bit_cast<std::uint64_t>(mixed) * 0x9e3779b97f4a7c15U >> kUpperBits];
+    }
+    // For another field.
+    void forget() {
+        for (Search& one : search_) one.sides.count = 0;
+    }
+
+  private:
+    static constexpr int kBits = 8;
+    std::array<Search, 1 << kBits> search_;
 };
 
 // A place of the surface that is nearest to a point in its own neighbourhood, as a query found it.
@@ -46,6 +99,8 @@ struct NearHint {
     // Searches along the surface that the queries with this hint have made, and bricks they have looked at
     // for where to start. Each takes some microseconds.
     long searches = 0;
+    // Of these and other queries of the same field; null: none.
+    SearchMemory* memory = nullptr;
 };
 
 // Distances in mm, negative inside material. Implementations answer in bounded time without allocation or
@@ -86,22 +141,6 @@ struct Foot {
     Vec3 at_mm;
     HalfSpaces sides;  // tangent planes of the pieces that meet there, as far as they are known
     bool found = false;
-};
-
-// Places of edges that a search has passed on its way to the nearest one: the first of them.
-class Trail {
-  public:
-    struct Place {
-        Vec3 at_mm, along;  // `along`: of the edge, unit
-    };
-    void put(const Place& one) {
-        if (count_ < place_.size()) place_[count_++] = one;
-    }
-    std::span<const Place> all() const { return {place_.data(), count_}; }
-
-  private:
-    std::array<Place, 32> place_;
-    std::size_t count_ = 0;
 };
 
 // Finds the surface point nearest to `point_mm` (in air) in the neighbourhood of `start_mm`, by cutting

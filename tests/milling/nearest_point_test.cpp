@@ -4,6 +4,7 @@
 // that knows only the sweeps.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <memory>
 
 #include "base/noise_hash.hpp"
 #include "field/carved/carved_field.hpp"
@@ -48,6 +49,7 @@ double distance_to_scallops(Vec3 p) {
 }
 
 TEST(NearestPoint, is_that_of_the_closed_form_wherever_the_point_wanders) {
+    const auto memory = std::make_unique<contact::SearchMemory>();
     for (const double cell : {0.1, 0.25}) {
         const auto stock = scallops(cell);
         const CounterNoise noise(3);
@@ -58,7 +60,9 @@ TEST(NearestPoint, is_that_of_the_closed_form_wherever_the_point_wanders) {
         for (int walk = 0; walk < 600; ++walk) {
             const double radius = between(0.02, 0.6), step = std::pow(10, between(-4, -0.5));
             Vec3 p{between(6, 14), between(6, 14), -0.97 + radius};
+            memory->forget();
             contact::NearHint hint;
+            hint.memory = memory.get();
             hint.at_mm = p;
             for (int n = 0; n < 200; ++n) {
                 const double truth = distance_to_scallops(p);
@@ -116,6 +120,7 @@ constexpr double kReachCells = 42;
 // Balls from a tenth of a groove to several grooves over the plate and its edges, with and without what is
 // known from the last place. At a grid of two cells a groove a search must not pass over a cusp.
 void expect_that_of_plates(int plates) {
+    const auto memory = std::make_unique<contact::SearchMemory>();
     const CounterNoise noise(41);
     std::uint64_t drawn = 0;
     const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(drawn++); };
@@ -125,7 +130,9 @@ void expect_that_of_plates(int plates) {
         for (int walk = 0; walk < 100; ++walk) {
             const double radius = std::min(pitch * between(0.1, 8), 40 * plate.stock->cell_mm()),
                          step = pitch * std::pow(10, between(-3, 0.5));
+            memory->forget();
             contact::NearHint hint;
+            hint.memory = memory.get();
             double x = between(-radius, plate.width + radius), y = between(0.4, 0.6) * plate.width;
             for (int n = 0; n < 10; ++n) {
                 x = std::clamp(x + step * between(-1, 1), -radius, plate.width + radius);
@@ -158,6 +165,43 @@ TEST(NearestPoint, is_that_of_the_closed_form_over_random_plates_and_their_edges
 // For a long `make soak`.
 TEST(NearestPoint, DISABLED_is_that_of_the_closed_form_a_million_times) {
     expect_that_of_plates(1100);
+}
+
+Cutter cutter_of(CutterKind kind, double diameter_mm) {
+    Cutter cutter;
+    cutter.kind = kind;
+    cutter.diameter_mm = diameter_mm;
+    cutter.length_mm = 30;
+    return cutter;
+}
+
+// What was found for a point a little away saves searches, and none of it is used after a cut.
+TEST(NearestPoint, remembers_searches_until_the_next_cut) {
+    constexpr double kPitch = 0.4, kRadius = 1.2;
+    Plate plate(kPitch, 0.05, 0.4 * kPitch);
+    const auto memory = std::make_unique<contact::SearchMemory>();
+    long with_memory = 0, without = 0;
+    const auto walk = [&](const char* when) {
+        for (int n = 0; n < 400; ++n) {
+            const Vec3 p{3 + 2e-3 * n, 3.2 + 1e-3 * n, 1.1};
+            // No hint: both have to prove that no place is nearer.
+            contact::NearHint hint, none;
+            hint.at_mm = hint.from_mm = none.at_mm = none.from_mm = p;
+            hint.memory = memory.get();
+            ASSERT_NEAR(plate.stock->nearest(p, 2 * kRadius, hint).distance_mm,
+                        plate.stock->nearest(p, 2 * kRadius, none).distance_mm, kTruth)
+                << when << " " << n;
+            with_memory += hint.searches;
+            without += none.searches;
+        }
+    };
+    walk("before the cut");
+    motion::Move cut;
+    cut.start.tip_mm = {2, 3.3, -0.08};
+    cut.end.tip_mm = {5, 3.5, -0.08};
+    plate.stock->carve(make_sweep(cutter_of(CutterKind::ball, 3), cut));
+    walk("after it");
+    EXPECT_LT(with_memory, 0.85 * static_cast<double>(without));
 }
 
 // Stock with all that was carved from it.
@@ -232,6 +276,7 @@ struct Carved {
 // Walks of a point through the air near the surface: its distance to it is `radius` or less. The hint is that
 // of the walk.
 void expect_nearest(const Carved& part, const Box3& inside, double most_radius_mm, int walks, int steps) {
+    const auto memory = std::make_unique<contact::SearchMemory>();
     const CounterNoise noise(17);
     std::uint64_t drawn = 0;
     const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(drawn++); };
@@ -243,7 +288,9 @@ void expect_nearest(const Carved& part, const Box3& inside, double most_radius_m
             p = {between(inside.min.x, inside.max.x), between(inside.min.y, inside.max.y),
                  between(inside.min.z, inside.max.z)};
         } while (part.air_mm(p) <= 1e-3 || part.air_mm(p) > most);
+        memory->forget();
         contact::NearHint hint;
+        hint.memory = memory.get();
         hint.at_mm = p;
         for (int n = 0; n < steps; ++n) {
             const contact::SurfaceSample s = part.stock.nearest(p, 2 * most_radius_mm, hint);
@@ -263,14 +310,6 @@ void expect_nearest(const Carved& part, const Box3& inside, double most_radius_m
         }
     }
     EXPECT_GT(measured, walks * steps / 2);
-}
-
-Cutter cutter_of(CutterKind kind, double diameter_mm) {
-    Cutter cutter;
-    cutter.kind = kind;
-    cutter.diameter_mm = diameter_mm;
-    cutter.length_mm = 30;
-    return cutter;
 }
 
 // Four sweeps meet in each corner between the marks.
@@ -330,6 +369,7 @@ TEST(NearestPoint, is_the_shortest_of_all_rays_over_passes_of_a_tilted_flat_cutt
 // A point near the axis of a hole, or of the round end of a slot, is nearly as far from all of its mouth: an
 // edge that bends about the point as a circle does.
 TEST(NearestPoint, is_that_of_the_closed_form_over_the_mouths_of_holes_and_slots) {
+    const auto memory = std::make_unique<contact::SearchMemory>();
     const CounterNoise noise(23);
     std::uint64_t drawn = 0;
     const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(drawn++); };
@@ -348,7 +388,9 @@ TEST(NearestPoint, is_that_of_the_closed_form_over_the_mouths_of_holes_and_slots
         for (int walk = 0; walk < 20; ++walk) {
             const double off = mouth * std::pow(10, between(-4, -0.5)),
                          high = least_high + mouth * between(0.05, 0.7);
+            memory->forget();
             contact::NearHint hint;
+            hint.memory = memory.get();
             double turn = between(-3, 3);
             for (int n = 0; n < 20; ++n) {
                 turn += between(-0.3, 0.3);

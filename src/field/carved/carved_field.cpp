@@ -224,7 +224,7 @@ void CarvedField::carve_again(std::size_t count) {
 
 void CarvedField::carve_stored(std::size_t count, std::span<double> removed_mm3) {
     assert(count <= kMostAtOnce && removed_mm3.size() == count);
-    ++change_;
+    tables_->query.change = ++change_;
     if (cuts_of_.size() < count) cuts_of_.resize(count);
     const auto over = [&](std::size_t number, std::size_t least, const auto& body) {
         if (number >= least) return parallel_(number, body);

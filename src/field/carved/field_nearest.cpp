@@ -32,6 +32,11 @@ constexpr double kOfInnerBall = 0.9;
 // Searches that pass the same place of an edge end at the same place, unless the edge comes nearer there by
 // less than this share of its length: nearly round about the point, it has no clear end.
 constexpr double kComesNearer = 5e-3;
+// A search for a point this far away, in cells, ends at the same place if its way still comes nearer all
+// along.
+constexpr double kRemembered = 0.25;
+// The longest way to an edge that is looked at, and its parts, in cells.
+constexpr double kLongestWay = 8, kPart = 0.25;
 // Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
 // may pass over the cusp beside the start.
 constexpr double kLongestCells = 0.65;
@@ -222,6 +227,9 @@ class FieldQuery::NearestSearch {
     std::optional<contact::Foot> search(BrickRef ref, Vec3 from);
     std::optional<contact::Foot> search_at(Vec3 from);
     bool is_among_known();
+    std::optional<contact::Foot> remembered(SeenPlace& start);
+    std::optional<contact::Foot> search_from(SeenPlace& start, BrickRef ref);
+    double comes_nearer_mm(Vec3 from, Vec3 to) const;
     contact::Foot among_bricks(contact::SurfaceSample lower);
 
     const FieldQuery& field_;
@@ -336,6 +344,63 @@ bool FieldQuery::NearestSearch::is_among_known() {
     return true;
 }
 
+// The end of an earlier search from a start, if it is the end for this point too.
+std::optional<contact::Foot> FieldQuery::NearestSearch::remembered(SeenPlace& start) {
+    if (!hint_.memory) return std::nullopt;
+    contact::SearchMemory::Search& last = hint_.memory->from(start.at);
+    const double moved_mm = distance(p_, last.point_mm);
+    if (last.sides.count == 0 || last.start_mm != start.at || last.change != field_.change ||
+        moved_mm > std::min(kRemembered * field_.cell_mm, last.lasts_mm) ||
+        last.trail.lasts_mm(p_) <= kComesNearer * distance(p_, last.end_mm))
+        return std::nullopt;
+    contact::Foot foot = field_.follow(p_, last.end_mm, last.sides, false).foot;
+    if (foot.found && foot.sides.count > 1) {
+        found_.put(foot);
+        is_proven_ = is_proven_ || field_.is_nearest(foot);
+    } else if (const auto searched = search_at(last.end_mm)) {
+        foot = *searched;
+    } else {
+        return std::nullopt;
+    }
+    if (distance(foot.at_mm, last.end_mm) > field_.cell_mm) return std::nullopt;
+    trail_ = last.trail;
+    start.lasts_mm = last.lasts_mm - moved_mm;
+    last.end_mm = foot.at_mm;
+    last.sides = foot.sides;
+    return foot;
+}
+
+// From a place that the grid shows, in a brick.
+std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& start, BrickRef ref) {
+    if (const auto known = remembered(start)) return known;
+    trail_ = {};
+    const Vec3 from = field_.surface_behind(start.at, p_);
+    const std::optional<contact::Foot> foot = search(ref, from);
+    if (!foot) return foot;
+    trail_.lead_to(foot->at_mm, field_.cell_mm, p_);
+    start.lasts_mm = comes_nearer_mm(from, trail_.all().empty() ? foot->at_mm : trail_.all().front().at_mm);
+    if (hint_.memory && foot->sides.count > 1)
+        hint_.memory->from(start.at) = {start.at,    p_,          start.lasts_mm, trail_,
+                                        foot->at_mm, foot->sides, field_.change};
+    return foot;
+}
+
+// Over this way of the point, mm, the surface comes nearer to it all along from one place to another.
+double FieldQuery::NearestSearch::comes_nearer_mm(Vec3 from, Vec3 to) const {
+    const Vec3 way = to - from;
+    const double cells = length(way) * field_.per_cell;
+    if (cells > kLongestWay) return 0;
+    const int parts = static_cast<int>(std::ceil(cells / kPart));
+    double least = SeenPlace::kUnlimited;
+    for (int n = 0; n < parts; ++n) {
+        Vec3 at = from + ((n + 0.5) / parts) * way;
+        const contact::SurfaceSample s = field_.sample(at);
+        at -= s.distance_mm * s.normal;
+        least = std::min(least, dot(p_ - at, normalized(way - dot(way, s.normal) * s.normal, Vec3{})));
+    }
+    return std::max(0.0, least - kPart * field_.cell_mm);
+}
+
 // At a cusp: the nearest surface point of each brick that may contain one, from the nearest brick on, which
 // is the most likely.
 contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample lower) {
@@ -354,15 +419,13 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     bool all_looked = true;
     // Start and end points of the searches, and places of the edges that they passed.
     constexpr std::size_t kMostPassed = 200;
-    SeenPlace seen[kMostPassed + 2 * kMostSearches + 2];
+    SeenPlace seen[kMostPassed + 2 * kMostSearches + 2 + contact::NearHint::kMostOthers];
     std::size_t count = 0;
     ShownSurface shown(field_, p_);
     const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
-        const contact::HalfSpaces::Edge edge = foot.sides.edge_at(foot.at_mm);
-        const ShapeId one = foot.sides.side[edge.sides[0]].piece, two = foot.sides.side[edge.sides[1]].piece;
-        return {foot.at_mm, foot.sample.normal, edge.along, true, one, two};
+        return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along, true};
     };
-    if (!found_.none()) seen[count++] = place_of(found_.best());
+    for (const contact::Foot& foot : found_.all()) seen[count++] = place_of(foot);
     contact::SurfaceSample nearest_box{within_mm_, {0, 0, 1}, 0};
     while (bricks_near.take(reach(), b, way)) {
         const BrickRef ref = field_.bricks.get(b);
@@ -379,8 +442,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
                 break;
             }
             if (++searches > kMostSearches) break;
-            trail_ = {};
-            const std::optional<contact::Foot> foot = search(ref, field_.surface_behind(start.at, p_));
+            const std::optional<contact::Foot> foot = search_from(start, ref);
             if (is_proven_) return found_.best();
             if (!foot) {
                 doubt = true;
@@ -388,6 +450,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             }
             const SeenPlace end = place_of(*foot);
             start.along = end.along;
+            start.lasts_mm = std::min(start.lasts_mm, trail_.lasts_mm(p_));
             seen[count++] = start;
             seen[count++] = end;
             for (const contact::Trail::Place& passed : trail_.all()) {
@@ -396,8 +459,8 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
                 on_way.at = passed.at_mm;
                 on_way.along = passed.along;
                 on_way.normal = normalized(p_ - passed.at_mm, end.normal);
-                on_way.ahead_mm = std::abs(dot(p_ - passed.at_mm, passed.along));
-                if (on_way.ahead_mm >= kComesNearer * distance(p_, passed.at_mm)) seen[count++] = on_way;
+                on_way.lasts_mm = dot(p_ - passed.at_mm, passed.along);
+                if (on_way.lasts_mm >= kComesNearer * distance(p_, passed.at_mm)) seen[count++] = on_way;
             }
         }
         if (searches > kMostSearches) {
@@ -411,16 +474,11 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
         if (all_looked && shown.is_whole() && !doubt && !found_.none()) {
             hint_.proved_at_mm = p_;
             hint_.rest_mm = std::min({found_.rest_mm(), reach(), proven});
-            std::array<SeenPlace, 1 + contact::NearHint::kMostOthers> known;
-            for (std::size_t n = 0; n < found_.all().size(); ++n) {
-                const contact::Foot& foot = found_.all()[n];
-                known[n] = place_of(foot);
-                if (n > 0)
-                    hint_.other[static_cast<std::size_t>(hint_.others++)] = {foot.at_mm, foot.sides,
-                                                                             foot.sample.distance_mm};
-            }
-            hint_.settled_mm = shown.settled_mm(reach() - found_.distance_mm(),
-                                                {known.data(), found_.all().size()}, {seen, count});
+            for (const contact::Foot& foot : found_.all().subspan(1))
+                hint_.other[static_cast<std::size_t>(hint_.others++)] = {foot.at_mm, foot.sides,
+                                                                         foot.sample.distance_mm};
+            hint_.settled_mm =
+                shown.settled_mm(reach() - found_.distance_mm(), found_.distance_mm(), {seen, count});
         }
         return found_.best();
     }

@@ -36,6 +36,7 @@ struct FieldQuery {
     BrickTable bricks;
     const BrickPool* pool = nullptr;
     const ShapeStore* shapes = nullptr;
+    std::uint64_t change = 0;  // grows whenever the field changes
 
     const Shape& blank() const { return *(*shapes)[0]; }
     const Shape& shape(ShapeId id) const { return *(*shapes)[id]; }

@@ -81,6 +81,7 @@ void CarvedField::restore(const FieldState& state) {
     }
     carved_ = state.shapes;
     removed_ = state.removed_mm3;
+    tables_->query.change = ++change_;
     if (showing_) show_->show(tables_->query, chunks, tables_->pool);
 }
 

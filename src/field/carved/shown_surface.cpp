@@ -18,9 +18,8 @@ constexpr double kAround = 0.87, kBulge = 0.1;
 // Surface between two nodes goes on around no corner if the product of their normals is at least kGoesOn, and
 // has no edge if the normals part by no more than kNoEdge.
 constexpr double kGoesOn = 0.95, kNoEdge = 2e-3;
-// Surface so near to a place that was found belongs to it, in cells: in any direction, or beside an edge, or
-// along the edge where one of its pieces is shown.
-constexpr double kOwn = 1.5, kOwnBeside = 0.5, kOwnAlong = 4;
+// Surface so near to the end of a search belongs to it, in cells.
+constexpr double kOwn = 1.5;
 // A point moves this far from query to query, in cells: less is not worth knowing.
 constexpr double kTooLittle = 0.02;
 // No point of the surface is farther than this from every node, in cells.
@@ -141,7 +140,7 @@ bool ShownSurface::see(BrickCoord where, int a, int b, int c, ShownPlace& shown)
     const Vec3 normal = corner ? normal_at(where, static_cast<int>(index), shape, node)
                                : normalized(slope, Vec3{0, 0, 1}),
                at = node - (steep > kOneSlope || corner ? d : d / steep) * normal;
-    shown = {{at, normal, {}, false, shape, 0, corner}, distance(at, point_), where, {a, b, c}};
+    shown = {{at, normal, {}, false, shape, corner}, distance(at, point_), where, {a, b, c}};
     return true;
 }
 
@@ -180,8 +179,11 @@ bool ShownSurface::visit_nearer(const ShownPlace& from, IsEnough&& is_enough) co
                 if (to.way_mm >= from.way_mm || dot(to.place.normal, from.place.normal) < kGoesOn) continue;
                 const Vec3 step = to.place.at - from.place.at;
                 if (dot(step, way) <= 0) continue;
-                const double fall_mm = dot(normalized(step, Vec3{}), along_surface(to.place));
-                if ((to.place.corner || fall_mm > 0) && is_enough(to.place, step, fall_mm)) return true;
+                // What a node shows in the air before a corner has no slope of its own.
+                const Vec3 ahead = normalized(step, Vec3{});
+                double fall_mm = dot(ahead, along_surface(to.place));
+                if (to.place.corner) fall_mm = std::max(fall_mm, dot(ahead, way));
+                if (fall_mm > 0 && is_enough(to.place, step, fall_mm)) return true;
             }
         }
     }
@@ -242,28 +244,21 @@ bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPl
     return false;
 }
 
-double ShownSurface::settled_mm(double most_mm, std::span<const SeenPlace> known,
-                                std::span<const SeenPlace> seen) const {
-    const double nearest_mm = distance(known.front().at, point_);
-    const auto is_of = [&](const SeenPlace& found, const SeenPlace& shown) {
-        const bool edge = squared_length(found.along) > 0;
-        const bool on_edge = edge && (shown.shape == found.shape || shown.shape == found.beside);
-        const Vec3 off = (shown.at - found.at) * field_->per_cell,
-                   aside = off - dot(off, found.along) * found.along;
-        const double beside = edge ? kOwnBeside : kOwn, far = on_edge ? kOwnAlong : kOwn;
-        return squared_length(aside) <= beside * beside && squared_length(off) <= far * far;
-    };
+double ShownSurface::settled_mm(double most_mm, double nearest_mm, std::span<const SeenPlace> seen) const {
     double settled = most_mm;
     for (const ShownPlace& one : std::span(passed_.data(), passed_count_)) {
         const double nearer_mm = 0.5 * (one.way_mm - nearest_mm);
-        if (nearer_mm >= settled ||
-            std::ranges::any_of(known, [&](const SeenPlace& found) { return is_of(found, one.place); }))
-            continue;
+        if (nearer_mm >= settled) continue;
         double way_mm = std::max(nearer_mm, steepest_fall_mm(one));
-        for (const SeenPlace& passed : seen) {
-            const double ahead_mm =
-                std::min(passed.ahead_mm, std::abs(dot(point_ - one.place.at, passed.along)));
-            if (ahead_mm > way_mm && is_alike(passed, one.place, field_->per_cell)) way_mm = ahead_mm;
+        for (const SeenPlace& place : seen) {
+            if (way_mm >= settled || !is_alike(place, one.place, field_->per_cell)) continue;
+            const double along_mm = std::abs(dot(point_ - one.place.at, place.along));
+            if (!place.ended)
+                way_mm = std::max(way_mm, place.lasts_mm);
+            else if (place.lasts_mm == SeenPlace::kUnlimited && along_mm < kOwn * field_->cell_mm)
+                way_mm = settled;
+            else
+                way_mm = std::max(way_mm, std::min(place.lasts_mm, along_mm));
         }
         settled = std::min(settled, way_mm);
         if (settled < kTooLittle * field_->cell_mm) return 0;

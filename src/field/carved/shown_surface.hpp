@@ -14,10 +14,12 @@ struct SeenPlace {
     Vec3 at, normal;
     Vec3 along;           // of the edge to which a search led from there; zero if to none
     bool ended = false;   // a search ended or passed there
-    ShapeId shape = 0;    // that gives the distance at the node, or of one side of the edge
-    ShapeId beside = 0;   // of the other side of the edge
+    ShapeId shape = 0;    // that gives the distance at the node
     bool corner = false;  // the node is near a corner: the place may be in the air before it
-    double ahead_mm = 0;  // where a search passed on an edge: how much of the way to the point is along it
+    // How far the point may move, as long as what is known holds: the search from there, or past there, leads
+    // to the same end.
+    double lasts_mm = kUnlimited;
+    static constexpr double kUnlimited = 1e30;
 };
 
 // Whether searches from both places lead to the same one. Surface that faces another way is the other side of
@@ -46,11 +48,10 @@ class ShownSurface {
     bool take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place);
     // False if there were more places than could be kept. The nearest ones are.
     bool is_whole() const { return whole_; }
-    // How far the point may move, up to `most_mm`, until a place that does not belong to those that are
-    // known, the nearest one first, may become the nearest of its neighbourhood, and nearer than these.
-    // `seen`: what take() was given.
-    double settled_mm(double most_mm, std::span<const SeenPlace> known,
-                      std::span<const SeenPlace> seen) const;
+    // How far the point may move, up to `most_mm`, until a place that is not seen may become the nearest of
+    // its neighbourhood, and nearer than the nearest place, which is `nearest_mm` away. `seen`: what take()
+    // was given.
+    double settled_mm(double most_mm, double nearest_mm, std::span<const SeenPlace> seen) const;
 
   private:
     void put(const ShownPlace& one);

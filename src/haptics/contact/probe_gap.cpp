@@ -25,6 +25,7 @@ void ProbeGap::forget() {
         ball.seen_gap = -1e30;
         ball.touch = ball.room = {};
     }
+    memory_->forget();
 }
 
 ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& ball, contact::NearHint& near,
@@ -36,6 +37,7 @@ ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& 
         const double within = 2 * radius_;
         if (near.sides.count == 0) near.at_mm = near.from_mm = at;
         const long before = near.searches;
+        near.memory = memory_.get();
         s = field.nearest(at, within, near);
         searches_ += near.searches - before;
     } else {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -71,6 +72,7 @@ class ProbeGap {
     double radius_;
     // Made at once: more than a small stack holds.
     std::vector<Ball> ball_ = std::vector<Ball>(kMostBalls);
+    std::unique_ptr<contact::SearchMemory> memory_ = std::make_unique<contact::SearchMemory>();
     std::size_t count_ = 1, last_ = 0;
     long queries_ = 0, searches_ = 0;
 };
