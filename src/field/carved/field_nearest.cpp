@@ -391,14 +391,16 @@ double FieldQuery::NearestSearch::comes_nearer_mm(Vec3 from, Vec3 to) const {
     const double cells = length(way) * field_.per_cell;
     if (cells > kLongestWay) return 0;
     const int parts = static_cast<int>(std::ceil(cells / kPart));
-    double least = SeenPlace::kUnlimited;
-    for (int n = 0; n < parts; ++n) {
+    double lasts = SeenPlace::kUnlimited;
+    for (int n = 0; n < parts && lasts > 0; ++n) {
         Vec3 at = from + ((n + 0.5) / parts) * way;
         const contact::SurfaceSample s = field_.sample(at);
         at -= s.distance_mm * s.normal;
-        least = std::min(least, dot(p_ - at, normalized(way - dot(way, s.normal) * s.normal, Vec3{})));
+        const double nearer_mm = dot(p_ - at, normalized(way - dot(way, s.normal) * s.normal, Vec3{}));
+        // Between two of these it may be less.
+        lasts = std::min(lasts, std::max(0.0, nearer_mm - kPart * field_.cell_mm));
     }
-    return std::max(0.0, least - kPart * field_.cell_mm);
+    return lasts;
 }
 
 // At a cusp: the nearest surface point of each brick that may contain one, from the nearest brick on, which
