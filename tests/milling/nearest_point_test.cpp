@@ -175,32 +175,39 @@ Cutter cutter_of(CutterKind kind, double diameter_mm) {
     return cutter;
 }
 
-// What was found for a point a little away saves searches, and none of it is used after a cut.
-TEST(NearestPoint, remembers_searches_until_the_next_cut) {
+// What was found for a point a little away saves searches. After a cut, on the way back, the answers are those
+// of a search that remembers nothing.
+TEST(NearestPoint, with_memory_saves_searches_and_is_the_same_before_and_after_a_cut) {
     constexpr double kPitch = 0.4, kRadius = 1.2;
-    Plate plate(kPitch, 0.05, 0.4 * kPitch);
+    constexpr int kSteps = 400;
+    const CounterNoise noise(5);
     const auto memory = std::make_unique<contact::SearchMemory>();
     long with_memory = 0, without = 0;
-    const auto walk = [&](const char* when) {
-        for (int n = 0; n < 400; ++n) {
-            const Vec3 p{3 + 2e-3 * n, 3.2 + 1e-3 * n, 1.1};
+    for (std::uint64_t k = 0; k < 40; ++k) {
+        const Plate plate(kPitch, 0.05, 0.4 * kPitch);
+        memory->forget();
+        const Vec3 from{3 + noise.uniform(5 * k), 3 + noise.uniform(5 * k + 1), 1.1};
+        const auto query = [&](int step) {
+            const Vec3 p = from + (step * 1e-3) * Vec3{2, 1, 0};
             // No hint: both have to prove that no place is nearer.
             contact::NearHint hint, none;
             hint.at_mm = hint.from_mm = none.at_mm = none.from_mm = p;
             hint.memory = memory.get();
             ASSERT_NEAR(plate.stock->nearest(p, 2 * kRadius, hint).distance_mm,
                         plate.stock->nearest(p, 2 * kRadius, none).distance_mm, kTruth)
-                << when << " " << n;
+                << k << " " << step;
             with_memory += hint.searches;
             without += none.searches;
-        }
-    };
-    walk("before the cut");
-    motion::Move cut;
-    cut.start.tip_mm = {2, 3.3, -0.08};
-    cut.end.tip_mm = {5, 3.5, -0.08};
-    plate.stock->carve(make_sweep(cutter_of(CutterKind::ball, 3), cut));
-    walk("after it");
+        };
+        for (int n = 0; n < kSteps; ++n) query(n);
+        const Vec3 at = from + (kSteps * 1e-3) * Vec3{2, 1, 0};
+        motion::Move cut;
+        cut.start.tip_mm = {at.x - 1, at.y + noise.uniform(5 * k + 2) - 0.5,
+                            -0.07 - 0.1 * noise.uniform(5 * k + 3)};
+        cut.end.tip_mm = cut.start.tip_mm + Vec3{2 * noise.uniform(5 * k + 4), 0.3, 0};
+        plate.stock->carve(make_sweep(cutter_of(CutterKind::ball, 0.8), cut));
+        for (int n = kSteps; n-- > kSteps - 20;) query(n);
+    }
     EXPECT_LT(with_memory, 0.85 * static_cast<double>(without));
 }
 
