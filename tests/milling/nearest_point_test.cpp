@@ -175,8 +175,8 @@ Cutter cutter_of(CutterKind kind, double diameter_mm) {
     return cutter;
 }
 
-// What was found for a point a little away saves searches. After a cut, on the way back, the answers are those
-// of a search that remembers nothing.
+// What was found for a point a little away saves searches. After a cut, on the way back, the answers are
+// those of a search that remembers nothing.
 TEST(NearestPoint, with_memory_saves_searches_and_is_the_same_before_and_after_a_cut) {
     constexpr double kPitch = 0.4, kRadius = 1.2;
     constexpr int kSteps = 400;
