@@ -26,6 +26,8 @@ constexpr double kLittleShorter = 0.75;
 constexpr double kTouches = 0.01;
 // It is so many steps high at least: the next ones end at the same ball.
 constexpr double kStepsHigh = 2;
+// Normals less apart than this are of the same place of a side (product).
+constexpr double kSameSide = 0.9999;
 // So far a corner is looked into behind its sides, mm, where the way between the others goes behind it by at
 // least this share.
 constexpr double kLook = 1e-3, kLeastBehind = 0.01;
@@ -36,7 +38,6 @@ constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
 // So often a proxy in material is pushed out; in a corner of bent sides each push takes most of the depth.
 constexpr int kMostPushes = 8;
-constexpr long kCostlySearches = 4;  // of a measurement
 // A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
 // the probe is in air.
 constexpr double kCreeping = 0.02, kStuckS = 3e-3;
@@ -94,7 +95,7 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     if (stride_mm_ < kLowest) stride_mm_ = gap_.radius_mm() > 0 ? 1e30 : kLowest;
     if (phase_ == Phase::touching && stuck_s_ >= kStuckS) release_stuck_proxy(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
-    if (phase_ == Phase::touching) renew_anchor();
+    if (phase_ == Phase::touching && (turned || gap_.radius_mm() == 0)) renew_anchor();
     const long most = gap_.searches() + kMostSearches;
     for (Next next = Next::more; next == Next::more && budget(kStepQueries) && gap_.searches() < most;) {
         switch (phase_) {
@@ -111,11 +112,23 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
         }
     }
     if (phase_ == Phase::touching && (!settled_ || braced_)) (void)push_out();
-    const bool stuck = phase_ == Phase::touching && !settled_ && gap_.radius_mm() > 0 &&
+    const bool stuck = phase_ == Phase::touching && (!settled_ || is_wedged()) && gap_.radius_mm() > 0 &&
                        distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe);
     stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
     return answer(probe);
+}
+
+// Whether two sides hold the proxy from both sides.
+bool FieldContact::is_wedged() const {
+    for (int n = 0; n < at_.sides.count; ++n) {
+        for (int m = 0; m < n; ++m) {
+            if (dot(at_.sides.side[static_cast<std::size_t>(n)].normal,
+                    at_.sides.side[static_cast<std::size_t>(m)].normal) < -kOneSide)
+                return true;
+        }
+    }
+    return false;
 }
 
 void FieldContact::Place::touch(const ProbeGap::Gap& seen) {
@@ -188,13 +201,22 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
         }
     }
     const double alike = dot(g.normal, from.normal);
-    if (alone && (alike < kOtherSide || (alike > kOneSide && g.gap_mm < -kOff * size))) return Landing::none;
+    const bool other_side = alike < kOtherSide && size > gap_.radius_mm();
+    if (alone && (other_side || (alike > kOneSide && g.gap_mm < -kOff * size))) return Landing::none;
     to = from;
     if (g.gap_mm > kOff * size + kSkin) {
         to.proxy = trial;
         return Landing::over_edge;
     }
-    if (alone && (g.gap_mm > kSkin || alike > kOneSide)) {
+    // A ball that fills a slot touches its other side too.
+    const bool wedged = alike < kOtherSide && g.gap_mm < kLens && gap_.radius_mm() > 0;
+    if (alone && g.gap_mm > kSkin && !wedged && alike < kOneSide &&
+        dot(from.proxy + way.rest + way.press - trial, g.normal) >= 0) {
+        // Off the one side, and the other one does not hold the probe: there is air between them.
+        to.proxy = trial;
+        return Landing::over_edge;
+    }
+    if (alone && !wedged && (g.gap_mm > kSkin || alike > kOneSide)) {
         to.proxy = trial;
         to.sides = {};
         to.normal = g.normal;
@@ -355,20 +377,33 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
     return Next::nothing;
 }
 
+// On the side that was seen, held by others too.
+void FieldContact::stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces& others) {
+    contact::HalfSpaces sides;
+    sides.put(side_of(seen.normal), kOneSide);
+    for (int i = 0; i < others.count; ++i) sides.put(others.side[static_cast<std::size_t>(i)], kOneSide);
+    at_.touch(seen);
+    at_.sides = sides;
+}
+
 // Brings a proxy that has come to stand in material (a nearest place was missed, or the probe has turned) out
-// along the normals; where that does not do, to the air that it is tied to. Whether it stood there.
+// along the normals; where that does not do, to the air that it is tied to. Whether it stood there, or on
+// another side than was known.
 bool FieldContact::push_out() {
     for (int n = 0; n < kMostPushes; ++n) {
         const ProbeGap::Gap g = measure(at_.proxy);
-        if (g.gap_mm >= -std::max(2 * kSkin, skin())) return n > 0;
+        if (g.gap_mm >= -std::max(2 * kSkin, skin())) {
+            if (n > 0 || at_.sides.count > 1 || dot(g.normal, up_from(at_)) > kSameSide) return n > 0;
+            stand_on(g, {});
+            return true;
+        }
         at_.proxy -= g.gap_mm * g.normal;
-        at_.touch(g);
-        at_.sides = {};
-        at_.sides.put(side_of(g.normal), kOneSide);
+        // After a hardly noticeable push the other sides still hold it.
+        stand_on(g, g.gap_mm > -kLens ? at_.sides : contact::HalfSpaces{});
     }
     anchor_.radius = measure(anchor_.at).gap_mm;
     phase_ = anchor_.radius > kSkin ? Phase::free : Phase::climb;
-    if (phase_ == Phase::free) at_.proxy = anchor_.at;
+    at_.proxy = anchor_.at;
     return true;
 }
 
@@ -377,14 +412,14 @@ bool FieldContact::chain(const Anchor& to) {
     if (to.radius < kSkin) return false;
     Anchor a = anchor_;
     for (int links = 0;; ++links) {
-        const double way = distance(to.at, a.at);
-        if (way <= a.radius + to.radius) {
+        const double way = distance(to.at, a.at), reach = a.radius + bridge_mm();
+        if (way <= reach + to.radius) {
             anchor_ = to;
             return true;
         }
         chained_mm_ = distance(a.at, anchor_.at);
-        if (a.radius < kSkin || links == kMostLinks || !budget(1)) return false;
-        a.at += (a.radius / way) * (to.at - a.at);
+        if (a.radius < -skin() || reach < kSkin || links == kMostLinks || !budget(1)) return false;
+        a.at += (reach / way) * (to.at - a.at);
         a.radius = clearance_mm(a.at, distance(to.at, a.at));
     }
 }
@@ -424,16 +459,21 @@ bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
 bool FieldContact::tie(const Place& to) {
     if (distance(to.proxy, anchor_.at) <= anchor_.radius + std::max(kTouches * anchor_.radius, skin()))
         return true;
-    Vec3 up = up_from(to);
     const double step = distance(to.proxy, at_.proxy);
+    if (gap_.radius_mm() > 0 && step <= bridge_mm()) {
+        // A short step of a ball needs no free ball above it.
+        const double gap_mm = measure(to.proxy).gap_mm;
+        if (gap_mm < -std::max(kTouches * step, kLens)) return false;
+        anchor_ = {to.proxy, std::max(0.0, gap_mm)};
+        return true;
+    }
+    Vec3 up = up_from(to);
     double height = std::clamp(std::max(kStepsHigh * step, height_), kLowest, kHighest);
-    const long searches = gap_.searches();
     for (int tries = 0; tries < 3 && budget(2); ++tries) {
         const Vec3 at = to.proxy + height * up;
         const Anchor a{at, clearance_mm(at, height, true)};
         if (reaches_down(a, to.proxy, std::max(kTouches * height, skin()))) {
-            // Over grooves of about the ball's radius a high anchor is costly to measure, a low one is not.
-            height_ = gap_.searches() - searches > kCostlySearches ? 0.5 * height : height;
+            height_ = height;
             return chain(a);
         }
         // Another side is near, one that the step has left or comes to: there is room only away from it too.

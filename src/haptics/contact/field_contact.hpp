@@ -4,6 +4,7 @@
 // and probe.
 #pragma once
 
+#include <cmath>
 #include <span>
 
 #include "contact/distance_field.hpp"
@@ -42,7 +43,8 @@ struct ProbeContact {
 // The proxy never crosses the surface, at any speed of the probe and any thickness of a wall. Four rules hold
 // in every tick:
 //   1. The proxy is tied: it touches a ball of free space (the anchor). A chain of free balls joins each
-//      anchor to the one before.
+//      anchor to the one before. A ball is tied without one by the last place, where a step is so short that
+//      nothing can be between the two.
 //   2. The proxy steps along the surface only if the step brings it nearer to the probe and the new place can
 //      be tied.
 //   3. The proxy makes progress: after a refused step it tries a shorter one, in this tick or in the next.
@@ -98,6 +100,8 @@ class FieldContact {
     // A proxy within this of the surface is on it, mm. No shorter step is worth taking. Of a ball the field
     // finds the nearest place within 2e-5.
     static constexpr double kSkin = 1e-6, kBallSkin = 4e-5;
+    // Material may be so deep in the way of a ball between two places of it, mm.
+    static constexpr double kLens = 5e-4;
     // Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
     static constexpr double kOneSide = 0.95;
     // A refused step is followed by one of this share.
@@ -121,6 +125,7 @@ class FieldContact {
     };
 
     ProbeContact tick(Vec3 probe, bool turned) noexcept;
+    bool is_wedged() const;
     void release_stuck_proxy(Vec3 probe);
     Next climb();
     Next fly(Vec3 probe);
@@ -136,6 +141,7 @@ class FieldContact {
     enum class Landing { on_surface, over_edge, none };
     Landing land(const Place& from, Vec3 step, const Split& way, Place& to);
     bool correct(Place& place, const ProbeGap::Gap& seen) const;
+    void stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces& others);
     bool push_out();
     void renew_anchor();
     static Vec3 up_from(const Place& place);
@@ -152,6 +158,9 @@ class FieldContact {
         ++queries_;
         return gap_.clearance_mm(*field_, at, enough_mm, over_touch);
     }
+    // Between two free places of a ball so far apart nothing is deeper in its way than kLens: the two balls
+    // leave out a lens of that depth. A point: 0.
+    double bridge_mm() const { return std::sqrt(8 * gap_.radius_mm() * kLens); }
     double skin() const { return gap_.radius_mm() > 0 ? kBallSkin : kSkin; }
     double hold() const { return sticking_ ? options_.friction_static : options_.friction_kinetic; }
 

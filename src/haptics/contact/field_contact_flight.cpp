@@ -66,11 +66,11 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
             // A surface that the probe is not behind does not hold it.
             const ProbeGap::Gap g = measure(a.at);
             const bool holds = dot(probe - a.at, g.normal) < -g.gap_mm;
+            if (!holds && (a.radius >= kSkin || gap_.radius_mm() > 0)) lift(a, g.normal, kLift * way);
             if (a.radius < kSkin || (holds && a.radius < kNearBall * unit)) {
                 touch_down(probe, a, g);
                 return Next::more;
             }
-            if (!holds) lift(a, g.normal, kLift * way);
         }
         anchor_ = a;
         at_.proxy = a.at;
@@ -86,7 +86,7 @@ void FieldContact::lift(Anchor& a, Vec3 up, double height) {
     for (; height > 2 * a.radius && budget(kStepQueries); height *= kShorter) {
         const Vec3 at = a.at + height * up;
         const Anchor above{at, clearance_mm(at, height)};
-        if (above.radius > a.radius && height <= a.radius + above.radius) {
+        if (above.radius > a.radius && height <= a.radius + above.radius + bridge_mm()) {
             a = above;
             return;
         }
