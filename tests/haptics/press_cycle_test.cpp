@@ -118,6 +118,8 @@ class Hand {
         contact_.set_options(options);
     }
 
+    void feel(const contact::DistanceField& field) { contact_.set_field(field); }
+
   protected:
     double between(double low, double high) { return low + (high - low) * noise_.uniform(drawn_++); }
     int choice(int count) {
@@ -286,6 +288,47 @@ TEST(PressCycle, corners_of_bent_sides_neither_set_the_proxy_back_nor_hold_it) {
           82034u, 105835u, 324549u, 441051u, 228229u, 33109u,  36280u,  48080u,  55250u}) {
         const Found one = Press(n % 2 == 0 ? thin : thick, n).run();
         EXPECT_EQ(one.lost + one.in_air + one.inward + one.kicks, 0) << n;
+    }
+}
+
+// A field that finds each nearest place also without what is known from the queries before.
+class Checked final : public contact::DistanceField {
+  public:
+    explicit Checked(const contact::DistanceField& field) : field_(field) {}
+    double distance_mm(Vec3 p) const override { return field_.distance_mm(p); }
+    Vec3 normal(Vec3 p) const override { return field_.normal(p); }
+    contact::SurfaceSample sample(Vec3 p) const override { return field_.sample(p); }
+    contact::SurfaceSample sample_piece(std::uint32_t piece, Vec3 p) const override {
+        return field_.sample_piece(piece, p);
+    }
+    double clearance_mm(Vec3 p, double enough_mm) const override { return field_.clearance_mm(p, enough_mm); }
+    contact::SurfaceSample nearest(Vec3 p, double within_mm, contact::NearHint& hint) const override {
+        contact::NearHint none;
+        none.at_mm = none.from_mm = p;
+        const contact::SurfaceSample seen = field_.nearest(p, within_mm, hint),
+                                     truth = field_.nearest(p, within_mm, none);
+        if (truth.distance_mm > 0 && truth.distance_mm < within_mm && none.sides.count > 0)
+            worst_mm = std::max(worst_mm, seen.distance_mm - truth.distance_mm);
+        return seen;
+    }
+    mutable double worst_mm = 0;
+
+  private:
+    const contact::DistanceField& field_;
+};
+
+// In the corners of a leaning slot a ball comes from the floor to a wall and back. Following the one led to
+// the other, and the one was forgotten: up to 25 um too far in 55 of 3,000 cycles, these among them.
+TEST(PressCycle, no_place_that_was_known_is_forgotten) {
+    const Slots thin = slots(2.2, 2, 3, 0.2, 0.15), thick = slots(3, 2, 3, 0.4, 0.15);
+    for (const std::uint64_t n :
+         {164u, 213u, 216u, 267u, 335u, 377u, 405u, 596u, 774u, 1161u, 1523u, 1908u, 2253u, 2781u}) {
+        const Slots& of = n % 2 == 0 ? thin : thick;
+        const Checked field(*of.field);
+        Press cycle(of, n);
+        cycle.feel(field);
+        (void)cycle.run();
+        EXPECT_LE(field.worst_mm, 1e-4) << n;
     }
 }
 

@@ -20,6 +20,9 @@ constexpr double kOnSurface = 2e-5;
 constexpr double kStep = 7e-5;
 // A step that nothing notices, mm.
 constexpr double kNoStep = 1e-6;
+// A place that has moved by no more than this per way of its point is the same one.
+constexpr double kKeeps = 2;
+constexpr double kFar = 1e30;  // mm
 // Searches for one point, and in one brick.
 constexpr int kMostSearches = 24, kMostStarts = 10;
 // Steps from a place that the grid shows down to the surface.
@@ -50,17 +53,29 @@ bool has_leapt(const contact::Foot& foot, Vec3 p, const contact::NearHint& hint)
            distance(foot.at_mm, hint.at_mm) > kSameFoot + kSlides * distance(p, hint.from_mm);
 }
 
-// Forgets nothing of what was proven for the known places when another one than that of the hint is nearest:
-// one of the others changes places with it, or it becomes one of all the rest.
+// Forgets nothing of what was proven for the known places when another one than that of the hint is found:
+// that becomes one of the others or, if there are too many, of all the rest.
 void keep_margin(const contact::Foot& foot, Vec3 p, contact::NearHint& hint) {
-    if (hint.rest_mm <= 0 || hint.proved_at_mm == p) return;
+    if (hint.sides.count == 0) hint.rest_mm = 0;  // of what, is not known
+    if (hint.rest_mm <= 0) return;
     const double moved = distance(p, hint.proved_at_mm), last = distance(hint.from_mm, hint.at_mm);
     const std::span others(hint.other.data(), static_cast<std::size_t>(hint.others));
-    const auto off = [&](const contact::KnownPlace& other) { return distance(foot.at_mm, other.at_mm); };
-    const auto nearest = std::ranges::min_element(others, {}, off);
-    if (nearest != others.end() && off(*nearest) < distance(foot.at_mm, hint.at_mm)) {
-        *nearest = {hint.at_mm, hint.sides, last - distance(hint.from_mm, hint.proved_at_mm)};
-    } else if (has_leapt(foot, p, hint)) {
+    const auto nearest_to = [&](Vec3 at) {
+        return std::ranges::min_element(others, {},
+                                        [at](const auto& one) { return distance(one.at_mm, at); });
+    };
+    const auto there = nearest_to(foot.at_mm);
+    const double there_mm = there == others.end() ? kFar : distance(there->at_mm, foot.at_mm);
+    if (there_mm >= distance(foot.at_mm, hint.at_mm) && !has_leapt(foot, p, hint)) return;
+    const contact::KnownPlace left{hint.at_mm, hint.sides, last - distance(hint.from_mm, hint.proved_at_mm)};
+    const auto same = nearest_to(left.at_mm);
+    if (there_mm <= kSameFoot + kKeeps * moved) {
+        *there = left;
+    } else if (same != others.end() && distance(same->at_mm, left.at_mm) <= kSameFoot) {
+        *same = left;
+    } else if (others.size() < hint.other.size()) {
+        hint.other[static_cast<std::size_t>(hint.others++)] = left;
+    } else {
         hint.rest_mm = std::max(0.0, std::min(hint.rest_mm - moved, last - distance(p, hint.from_mm)));
         for (contact::KnownPlace& other : others) other.far_mm -= moved;
         hint.settled_mm -= moved;
@@ -320,7 +335,9 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_at(Vec3 from) {
 // Whether the nearest place is one of those of the hint: then it is found. Each must still be there: not
 // beyond the point that was nearest before.
 bool FieldQuery::NearestSearch::is_among_known() {
-    if (found_.none() || !is_nearer_than_rest(found_.best(), p_, hint_)) return false;
+    if (found_.none()) return false;
+    keep_margin(found_.best(), p_, hint_);
+    if (!is_nearer_than_rest(found_.best(), p_, hint_)) return false;
     const double moved_mm = distance(p_, hint_.proved_at_mm);
     const contact::Foot first = found_.best();
     int nearest = -1;
@@ -335,7 +352,17 @@ bool FieldQuery::NearestSearch::is_among_known() {
         else if (const auto searched = search_at(other.at_mm))
             foot = *searched;
         if (!foot.found || foot.sample.distance_mm > distance(p_, other.at_mm) + kOnSurface) return false;
-        other = {foot.at_mm, foot.sides, foot.sample.distance_mm - moved_mm};
+        other.far_mm = foot.sample.distance_mm - moved_mm;
+        const auto is_there = [&](Vec3 at_mm) { return distance(foot.at_mm, at_mm) <= kSameFoot; };
+        const std::span before(hint_.other.data(), static_cast<std::size_t>(n));
+        if (is_there(first.at_mm) ||
+            std::ranges::any_of(before, [&](const auto& one) { return is_there(one.at_mm); })) {
+            // What has led to a known place may come to be one of its own again.
+            if (other.sides.count < 2 && !is_there(other.at_mm)) return false;
+            continue;
+        }
+        other.at_mm = foot.at_mm;
+        other.sides = foot.sides;
         if (found_.best().at_mm == foot.at_mm) nearest = n;
     }
     if (nearest >= 0)
