@@ -83,6 +83,11 @@ Foot foot_at(Vec3 foot_mm, Vec3 on_mm, Vec3 point_mm, const HalfSpaces& sides) {
     return {{way, (point_mm - foot_mm) / way, piece}, foot_mm, touching, true};
 }
 
+// Direction of the edge on which two sides meet.
+Vec3 edge_of(const HalfSpace& a, const HalfSpace& b) {
+    return normalized(cross(a.normal, b.normal), Vec3{});
+}
+
 bool lists(const HalfSpaces& sides, std::uint32_t piece) {
     const auto end = sides.side.begin() + sides.count;
     return std::any_of(sides.side.begin(), end, [&](const HalfSpace& side) { return side.piece == piece; });
@@ -134,7 +139,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             const bool is_known = std::abs(s.distance_mm) <= kUnsure && std::abs(above_mm) <= kOnSurface &&
                                   lists(sides, s.piece);
             if (trail && n > 0 && std::abs(s.distance_mm) <= kUnsure && squared_length(edge.along) > 0)
-                trail->put({q, edge.along});
+                trail->put({q, edge_of(sides.side[edge.sides[0]], sides.side[edge.sides[1]])});
             if (!is_known) {
                 const int known = sides.count;
                 sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
@@ -296,11 +301,15 @@ Vec3 out_of_hollow(const DistanceField& field, Vec3 point_mm, Vec3 q, Vec3 step_
 void Trail::lead_to(Vec3 end_mm, double near_mm, Vec3 point_mm) {
     std::size_t kept = 0;
     for (const Place& one : all()) {
-        if (distance(one.at_mm, end_mm) < near_mm) continue;
-        const double sense = dot(point_mm - one.at_mm, one.along) < 0 ? -1 : 1;
-        place_[kept++] = {one.at_mm, sense * one.along};
+        if (distance(one.at_mm, end_mm) >= near_mm) place_[kept++] = one;
     }
     count_ = kept;
+    for (std::size_t n = 0; n < count_; ++n) {
+        Place& one = place_[n];
+        const Vec3 next_mm = n + 1 < count_ ? place_[n + 1].at_mm : end_mm;
+        const double sense = dot(next_mm - one.at_mm, one.along) < 0 ? -1 : 1;
+        one.along = dot(point_mm - one.at_mm, one.along) * sense > 0 ? sense * one.along : Vec3{};
+    }
 }
 
 double Trail::lasts_mm(Vec3 point_mm) const {

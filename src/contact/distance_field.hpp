@@ -31,8 +31,8 @@ class Trail {
         if (count_ < place_.size()) place_[count_++] = one;
     }
     std::span<const Place> all() const { return {place_.data(), count_}; }
-    // Leaves out the places less than `near_mm` from the end of the search, and turns the edges so that they
-    // come nearer to the point.
+    // Leaves out the places less than `near_mm` from the end of the search, and turns the edges along the
+    // way. `along` is zero where an edge does not come nearer to the point that way.
     void lead_to(Vec3 end_mm, double near_mm, Vec3 point_mm);
     // After that: over this way of the point, mm, the edges still come nearer to it at all places.
     double lasts_mm(Vec3 point_mm) const;

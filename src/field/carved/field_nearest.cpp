@@ -38,8 +38,11 @@ constexpr double kComesNearer = 5e-3;
 // A search for a point this far away, in cells, ends at the same place if its way still comes nearer all
 // along.
 constexpr double kRemembered = 0.25;
-// The longest way to an edge that is looked at, and its parts, in cells.
-constexpr double kLongestWay = 8, kPart = 0.25;
+// The longest way to an edge that is looked at, its parts, and how much less it may come nearer between two
+// of them at least, in cells.
+constexpr double kLongestWay = 8, kPart = 0.25, kLess = 0.05;
+// So far along an edge and beside it the surface belongs to the end of a search on it, in cells.
+constexpr double kOwnEnd = 1.5, kOwnBeside = 0.1;
 // Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
 // may pass over the cusp beside the start.
 constexpr double kLongestCells = 0.65;
@@ -244,7 +247,7 @@ class FieldQuery::NearestSearch {
     bool is_among_known();
     std::optional<contact::Foot> remembered(SeenPlace& start);
     std::optional<contact::Foot> search_from(SeenPlace& start, BrickRef ref);
-    double comes_nearer_mm(Vec3 from, Vec3 to) const;
+    double comes_nearer_mm(Vec3 from, Vec3 to, Vec3 edge) const;
     contact::Foot among_bricks(contact::SurfaceSample lower);
 
     const FieldQuery& field_;
@@ -405,27 +408,37 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
     const std::optional<contact::Foot> foot = search(ref, from);
     if (!foot) return foot;
     trail_.lead_to(foot->at_mm, field_.cell_mm, p_);
-    start.lasts_mm = comes_nearer_mm(from, trail_.all().empty() ? foot->at_mm : trail_.all().front().at_mm);
+    const std::span passed = trail_.all();
+    start.lasts_mm = passed.empty()
+                         ? comes_nearer_mm(from, foot->at_mm, foot->sides.edge_at(foot->at_mm).along)
+                         : comes_nearer_mm(from, passed.front().at_mm, Vec3{});
     if (hint_.memory && foot->sides.count > 1)
         hint_.memory->from(start.at) = {start.at,    p_,          start.lasts_mm, trail_,
                                         foot->at_mm, foot->sides, field_.change};
     return foot;
 }
 
-// Over this way of the point, mm, the surface comes nearer to it all along from one place to another.
-double FieldQuery::NearestSearch::comes_nearer_mm(Vec3 from, Vec3 to) const {
+// Over this way of the point, mm, the surface comes nearer to it all along from one place to another, except
+// beside the edge on which that is an end (`edge`, or zero).
+double FieldQuery::NearestSearch::comes_nearer_mm(Vec3 from, Vec3 to, Vec3 edge) const {
     const Vec3 way = to - from;
     const double cells = length(way) * field_.per_cell;
     if (cells > kLongestWay) return 0;
     const int parts = static_cast<int>(std::ceil(cells / kPart));
-    double lasts = SeenPlace::kUnlimited;
+    double lasts = SeenPlace::kUnlimited, before_mm = 0;
     for (int n = 0; n < parts && lasts > 0; ++n) {
         Vec3 at = from + ((n + 0.5) / parts) * way;
         const contact::SurfaceSample s = field_.sample(at);
         at -= s.distance_mm * s.normal;
+        const Vec3 left = (to - at) * field_.per_cell;
+        const double along = dot(left, edge);
+        if (std::abs(along) < kOwnEnd && length(left - along * edge) < kOwnBeside) break;
         const double nearer_mm = dot(p_ - at, normalized(way - dot(way, s.normal) * s.normal, Vec3{}));
         // Between two of these it may be less.
-        lasts = std::min(lasts, std::max(0.0, nearer_mm - kPart * field_.cell_mm));
+        const double less_mm = n == 0 ? kPart * field_.cell_mm
+                                      : std::max(kLess * field_.cell_mm, std::abs(nearer_mm - before_mm));
+        lasts = std::min(lasts, std::max(0.0, nearer_mm - less_mm));
+        before_mm = nearer_mm;
     }
     return lasts;
 }

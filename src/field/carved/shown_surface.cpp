@@ -223,6 +223,17 @@ bool ShownSurface::none_nearer(const SeenPlace& place, double than_mm) const {
     return side * side + up * up >= than_mm * than_mm;
 }
 
+// Whether a search from a place leads where one did that began, passed or ended at another. Of an edge: it
+// comes nearer to the point in the same direction.
+bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const {
+    if (!is_alike(seen, place, field_->per_cell)) return false;
+    if (!seen.ended || squared_length(seen.along) == 0) return true;
+    const double ahead_mm = dot(point_ - place.at, seen.along);
+    if (seen.lasts_mm < SeenPlace::kUnlimited) return ahead_mm > 0;
+    const double way_mm = dot(seen.at - place.at, seen.along);
+    return std::abs(way_mm) < kOwn * field_->cell_mm || ahead_mm * way_mm > 0;
+}
+
 bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place) {
     while (count_ > 0) {
         ShownPlace& nearest =
@@ -234,9 +245,8 @@ bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPl
             passed_[passed_count_++] = one;
         else
             whole_ = false;
-        const bool is_seen = std::any_of(but.begin(), but.end(), [&](const SeenPlace& other) {
-            return is_alike(other, one.place, field_->per_cell);
-        });
+        const bool is_seen = std::any_of(but.begin(), but.end(),
+                                         [&](const SeenPlace& other) { return leads_to(one.place, other); });
         if (is_seen || comes_nearer(one)) continue;
         place = one.place;
         return true;
@@ -251,7 +261,7 @@ double ShownSurface::settled_mm(double most_mm, double nearest_mm, std::span<con
         if (nearer_mm >= settled) continue;
         double way_mm = std::max(nearer_mm, steepest_fall_mm(one));
         for (const SeenPlace& place : seen) {
-            if (way_mm >= settled || !is_alike(place, one.place, field_->per_cell)) continue;
+            if (way_mm >= settled || !leads_to(one.place, place)) continue;
             const double along_mm = std::abs(dot(point_ - one.place.at, place.along));
             if (!place.ended)
                 way_mm = std::max(way_mm, place.lasts_mm);

@@ -61,6 +61,7 @@ class ShownSurface {
     bool none_nearer(const SeenPlace& place, double than_mm) const;
     template <class IsEnough>
     bool visit_nearer(const ShownPlace& from, IsEnough&& is_enough) const;
+    bool leads_to(const SeenPlace& place, const SeenPlace& seen) const;
     bool comes_nearer(const ShownPlace& from) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 
