@@ -490,6 +490,8 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
             }
+            // It went on over the edge of a rib: another start leads to what is nearest here.
+            if (foot->sample.distance_mm > distance(p_, start.at) + field_.cell_mm) continue;
             const SeenPlace end = place_of(*foot);
             start.along = end.along;
             start.lasts_mm = std::min(start.lasts_mm, trail_.lasts_mm(p_));
