@@ -296,6 +296,13 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     }
     Place corrected = at_;
     (void)correct(corrected, g);
+    if (corrected.proxy == at_.proxy) {
+        // In the corner of sides that were there a step ago: as near as they let it come, or without them.
+        settled_ = g.gap_mm <= kLens;
+        if (settled_) return look_behind_a_side();
+        stand_on(g, {});
+        return Next::more;
+    }
     moved_ = true;
     if (!tie(corrected)) return Next::nothing;
     at_ = corrected;
