@@ -297,11 +297,9 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     Place corrected = at_;
     (void)correct(corrected, g);
     if (corrected.proxy == at_.proxy) {
-        // In the corner of sides that were there a step ago: as near as they let it come, or without them.
-        settled_ = g.gap_mm <= kLens;
-        if (settled_) return look_behind_a_side();
-        stand_on(g, {});
-        return Next::more;
+        // As near to all its sides as they let it come. In the next tick it takes off from them.
+        settled_ = g.gap_mm <= skin();
+        return settled_ ? look_behind_a_side() : Next::nothing;
     }
     moved_ = true;
     if (!tie(corrected)) return Next::nothing;
