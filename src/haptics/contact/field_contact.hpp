@@ -94,7 +94,7 @@ class FieldContact {
     static constexpr int kEndQueries = 20;
     // After so many searches along the surface (NearHint) no further step begins in a tick. A ball about as
     // wide as the cutter was needs many.
-    static constexpr long kMostSearches = 600;
+    static constexpr long kMostSearches = 300;
     // Queries that a step may need before it can be taken back, and links of a chain of balls.
     static constexpr int kStepQueries = 6, kMostLinks = 24;
     // A proxy within this of the surface is on it, mm. No shorter step is worth taking. Of a ball the field
