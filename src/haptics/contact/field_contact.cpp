@@ -384,11 +384,9 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
 
 // On the side that was seen, held by others too.
 void FieldContact::stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces& others) {
-    contact::HalfSpaces sides;
-    sides.put(side_of(seen.normal), kOneSide);
-    for (int i = 0; i < others.count; ++i) sides.put(others.side[static_cast<std::size_t>(i)], kOneSide);
     at_.touch(seen);
-    at_.sides = sides;
+    at_.sides = others;
+    at_.sides.put(side_of(seen.normal), kOneSide);
 }
 
 // Brings a proxy that has come to stand in material (a nearest place was missed, or the probe has turned) out
