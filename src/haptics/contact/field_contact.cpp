@@ -95,6 +95,7 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     if (stride_mm_ < kLowest) stride_mm_ = gap_.radius_mm() > 0 ? 1e30 : kLowest;
     if (phase_ == Phase::touching && stuck_s_ >= kStuckS) release_stuck_proxy(probe);
     if (turned && phase_ == Phase::touching) (void)push_out();
+    // The anchor of a ball that slides has no room of its own.
     if (phase_ == Phase::touching && (turned || gap_.radius_mm() == 0)) renew_anchor();
     const long most = gap_.searches() + kMostSearches;
     for (Next next = Next::more; next == Next::more && budget(kStepQueries) && gap_.searches() < most;) {
@@ -297,7 +298,7 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     Place corrected = at_;
     (void)correct(corrected, g);
     if (corrected.proxy == at_.proxy) {
-        // As near to all its sides as they let it come. In the next tick it takes off from them.
+        // As near to all its sides as they let it come. If it touches none, it takes off in the next tick.
         settled_ = g.gap_mm <= skin();
         return settled_ ? look_behind_a_side() : Next::nothing;
     }

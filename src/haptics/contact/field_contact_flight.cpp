@@ -86,7 +86,7 @@ void FieldContact::lift(Anchor& a, Vec3 up, double height) {
     for (; height > 2 * a.radius && budget(kStepQueries); height *= kShorter) {
         const Vec3 at = a.at + height * up;
         const Anchor above{at, clearance_mm(at, height)};
-        if (above.radius > a.radius && height <= a.radius + above.radius + bridge_mm()) {
+        if (above.radius > std::max(a.radius, kSkin) && height <= a.radius + above.radius + bridge_mm()) {
             a = above;
             return;
         }
