@@ -41,8 +41,8 @@ constexpr double kRemembered = 0.25;
 // The longest way to an edge that is looked at, its parts, and how much less it may come nearer between two
 // of them at least, in cells.
 constexpr double kLongestWay = 8, kPart = 0.25, kLess = 0.05;
-// So far along an edge and beside it the surface belongs to the end of a search on it, in cells.
-constexpr double kOwnEnd = 1.5, kOwnBeside = 0.1;
+// So far beside an edge the surface belongs to the end of a search on it, in cells.
+constexpr double kOwnBeside = 0.1;
 // Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
 // may pass over the cusp beside the start.
 constexpr double kLongestCells = 0.65;
@@ -432,7 +432,7 @@ double FieldQuery::NearestSearch::comes_nearer_mm(Vec3 from, Vec3 to, Vec3 edge)
         at -= s.distance_mm * s.normal;
         const Vec3 left = (to - at) * field_.per_cell;
         const double along = dot(left, edge);
-        if (std::abs(along) < kOwnEnd && length(left - along * edge) < kOwnBeside) break;
+        if (std::abs(along) < kOwn && length(left - along * edge) < kOwnBeside) break;
         const double nearer_mm = dot(p_ - at, normalized(way - dot(way, s.normal) * s.normal, Vec3{}));
         // Between two of these it may be less.
         const double less_mm = n == 0 ? kPart * field_.cell_mm

@@ -18,8 +18,6 @@ constexpr double kAround = 0.87, kBulge = 0.1;
 // Surface between two nodes goes on around no corner if the product of their normals is at least kGoesOn, and
 // has no edge if the normals part by no more than kNoEdge.
 constexpr double kGoesOn = 0.95, kNoEdge = 2e-3;
-// Surface so near to the end of a search belongs to it, in cells.
-constexpr double kOwn = 1.5;
 // A point moves this far from query to query, in cells: less is not worth knowing.
 constexpr double kTooLittle = 0.02;
 // No point of the surface is farther than this from every node, in cells.
@@ -51,14 +49,16 @@ Differences differences_at(const Brick& brick, int a, int b, int c, double cell_
     return result;
 }
 
-}  // namespace
-
+// Whether searches from both places lead to the same one. Surface that faces another way is the other side of
+// a corner.
 bool is_alike(const SeenPlace& a, const SeenPlace& b, double per_cell) {
     const Vec3 off = (b.at - a.at) * per_cell, aside = off - dot(off, a.along) * a.along;
     const double near = squared_length(a.along) > 0 ? (a.ended ? kBesideEnd : kBesideStart) : kOneStart;
     return squared_length(aside) < near * near && squared_length(off) < kAlongEdge * kAlongEdge &&
            dot(a.normal, b.normal) > kOneWay;
 }
+
+}  // namespace
 
 void ShownSurface::look_at(BrickCoord where, double within_mm) {
     count_ = 0;

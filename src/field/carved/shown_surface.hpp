@@ -22,9 +22,8 @@ struct SeenPlace {
     static constexpr double kUnlimited = 1e30;
 };
 
-// Whether searches from both places lead to the same one. Surface that faces another way is the other side of
-// a corner.
-bool is_alike(const SeenPlace& a, const SeenPlace& b, double per_cell);
+// Surface so near to the end of a search belongs to it, in cells.
+inline constexpr double kOwn = 1.5;
 
 // A node near the surface, and the place that it shows.
 struct ShownPlace {
