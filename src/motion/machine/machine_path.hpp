@@ -20,8 +20,8 @@ struct MachineBlock {
     Vec3 start_mm, end_mm;
     // The curve from start to end, if it is not straight; also in the program's coordinates. The axis of the
     // quadratic has no meaning.
-    std::optional<Arc> arc;
-    std::optional<Quadratic> quadratic;
+    Rare<Arc> arc;
+    Rare<Quadratic> quadratic;
     Vec3 start_rad, end_rad;
 };
 

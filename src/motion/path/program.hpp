@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/rare.hpp"
 #include "base/result.hpp"
 #include "base/vec3.hpp"
 
@@ -46,8 +47,8 @@ struct Quadratic {
 struct Move {
     MoveKind kind = MoveKind::feed;
     ToolPose start, end;
-    std::optional<Arc> arc;
-    std::optional<Quadratic> quadratic;
+    Rare<Arc> arc;
+    Rare<Quadratic> quadratic;
     double feed_mm_per_min = 0;  // of the tip; for a feed move > 0
     double duration_s = 0;       // > 0 if the program gives the time itself (inverse time, dwell), else 0
     double spindle_rpm = 0;      // 0: not given by the program
