@@ -185,6 +185,14 @@ TRIBO_LANES bool any(I8 m) {
 #endif
 }
 
+// True if it holds in every lane.
+TRIBO_LANES bool every(bool m) {
+    return m;
+}
+TRIBO_LANES bool every(I8 m) {
+    return !any(~m);
+}
+
 // Returns the right neighbour of each lane; the last lane keeps its value.
 TRIBO_LANES F8 next(F8 v) {
     return __builtin_shufflevector(v, v, 1, 2, 3, 4, 5, 6, 7, 7);

@@ -124,7 +124,7 @@ void ComparedRun::total_rows() {
 
 int ComparedRun::line_at(Vec3 surface_mm) const {
     if (!session) return 0;
-    const auto move = session->move_of_piece(session->stock().sample(surface_mm).piece);
+    const auto move = session->move_at(surface_mm);
     return move ? session->setup().moves[*move].line : 0;
 }
 

@@ -71,9 +71,9 @@ struct Machining::Cylinder {
 // One step of the current run.
 struct Machining::Sweep {
     Step step;
-    const field::Shape* shape = nullptr;  // null for a dwell
-    Box3 bounds_mm;
-    std::vector<field::PendingShape> earlier;  // sweeps of this run that may have cut here before
+    const field::Shape* shape = nullptr;       // of the whole pass; null for a dwell
+    Box3 bounds_mm;                            // of the shape
+    std::vector<field::PendingShape> earlier;  // passes of this run that may have cut here before
     double from = 0, to = 1;                   // fractions of the pass that it belongs to
     double contact = 0;                        // of a rapid: fraction at which it first meets stock
     std::vector<Collision> collisions;
@@ -313,57 +313,66 @@ void Machining::find_contact(std::size_t number, Sweep& sweep) const {
 
 void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
     const motion::Move& move = *sweep.step.move;
-    const auto report = [&](CollisionKind kind, Vec3 place) {
-        // The fraction of the move at which the tip is nearest to the place, for display in a picture.
-        double best = 0, nearest = 1e300;
-        for (int n = 0; n <= 16; ++n) {
-            const double d = distance(motion::pose_at(move, n / 16.0).tip_mm, place);
-            if (d < nearest) nearest = d, best = n / 16.0;
+    // Reports where, on the steps from `number` to `end`, the tip is nearest to the place, for display in a
+    // picture.
+    const auto report = [&](CollisionKind kind, Vec3 place, std::size_t end) {
+        Collision best{number, kind, 0, {}};
+        double nearest = 1e300;
+        for (std::size_t step = number; step < end; ++step) {
+            for (int n = 0; n <= 16; ++n) {
+                const Vec3 tip = motion::pose_at(*sweeps_[step].step.move, n / 16.0).tip_mm;
+                const double d = distance(tip, place);
+                if (d < nearest) nearest = d, best = {step, kind, n / 16.0, tip};
+            }
         }
-        sweep.collisions.push_back({number, kind, best, motion::pose_at(move, best).tip_mm});
+        sweep.collisions.push_back(best);
     };
     for (const auto& fixture : fixtures_) {
+        if (sweep.step.joins) break;  // the shape is that of the whole pass
         if (const auto place = field::shared_place(*sweep.shape, *fixture, kClearance))
-            report(CollisionKind::tool_in_fixture, *place);
+            report(CollisionKind::tool_in_fixture, *place, pass_end(number));
     }
     for (const Cylinder& part : bodies_[sweep.step.cutter]) {
         const auto solid = make_sweep(part.solid, raised(move, part.height_mm));
-        // The shank follows the cutter: the volume that this move and those before it remove is not an
+        // The shank follows the cutter: the volume that this pass and those before it remove is not an
         // obstacle.
         std::vector<field::PendingShape> gone;
         const Box3 reach = solid->bounds_mm();
         for (std::size_t n = 0; n <= number; ++n) {
-            if (sweeps_[n].shape && sweeps_[n].bounds_mm.overlaps(reach))
+            const bool own = sweeps_[n].shape && !sweeps_[n].step.joins;
+            if (own && sweeps_[n].bounds_mm.overlaps(reach))
                 gone.push_back({sweeps_[n].shape, sweeps_[n].bounds_mm});
         }
         if (const auto place = field::CarvedView(stock_, gone).overlap(*solid, kClearance))
-            report(part.in_stock, *place);
+            report(part.in_stock, *place, number + 1);
         for (const auto& fixture : fixtures_) {
             if (const auto place = field::shared_place(*solid, *fixture, kClearance))
-                report(CollisionKind::holder_in_fixture, *place);
+                report(CollisionKind::holder_in_fixture, *place, number + 1);
         }
     }
 }
 
-bool Machining::add_sweep(const Step& step) {
+bool Machining::add_sweeps(std::span<const Step> pass) {
     Sweep sweep;
-    sweep.step = step;
-    if (step.move->kind == motion::MoveKind::dwell) {
-        sweeps_.push_back(std::move(sweep));
-        return true;
+    if (pass.front().move->kind != motion::MoveKind::dwell) {
+        std::vector<const motion::Move*> moves;
+        for (const Step& step : pass) moves.push_back(step.move);
+        auto shape = make_sweep(cutters_[pass.front().cutter], moves);
+        sweep.shape = shape.get();
+        sweep.bounds_mm = shape->bounds_mm().inflated(kMargin);
+        for (std::size_t n = 0; n < sweeps_.size(); ++n) {
+            const Sweep& other = sweeps_[n];
+            if (other.step.joins || !other.shape || !other.bounds_mm.overlaps(sweep.bounds_mm)) continue;
+            if (sweep.earlier.size() == kMostPending) return false;
+            sweep.earlier.push_back({other.shape, other.bounds_mm});
+        }
+        shapes_.push_back(std::move(shape));
     }
-    auto shape = make_sweep(cutters_[step.cutter], *step.move);
-    sweep.shape = shape.get();
-    sweep.bounds_mm = shape->bounds_mm().inflated(kMargin);
-    // Steps that join are measured with the first step of their pass.
-    for (const Sweep& other : sweeps_) {
-        if (step.joins) break;
-        if (!other.shape || !other.bounds_mm.overlaps(sweep.bounds_mm)) continue;
-        if (sweep.earlier.size() == kMostPending) return false;
-        sweep.earlier.push_back({other.shape, other.bounds_mm});
+    for (const Step& step : pass) {
+        sweep.step = step;
+        sweeps_.push_back(sweep);
+        sweep.earlier.clear();  // the rows of a pass are measured with its first step
     }
-    shapes_.push_back(std::move(shape));
-    sweeps_.push_back(std::move(sweep));
     return true;
 }
 
@@ -372,13 +381,11 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     shapes_.clear();
     out.row_count = 0;
     out.collisions.clear();
-    std::size_t pass = 0;
-    for (const Step& step : steps) {
-        if (!step.joins && (sweeps_.size() >= kMostSteps || out.row_count >= kMostRowsAtOnce)) break;
-        if (!add_sweep(step)) break;
-        if (!step.joins) pass = sweeps_.size() - 1;
-        const bool ends = &step == &steps.back() || !(&step + 1)->joins;
-        if (ends && step.move->kind == motion::MoveKind::feed) add_pass(pass, out);
+    for (std::size_t n = 0, end; n < steps.size(); n = end) {
+        if (sweeps_.size() >= kMostSteps || out.row_count >= kMostRowsAtOnce) break;
+        for (end = n + 1; end < steps.size() && steps[end].joins;) ++end;
+        if (!add_sweeps(steps.subspan(n, end - n))) break;
+        if (steps[n].move->kind == motion::MoveKind::feed) add_pass(n, out);
     }
     // Rows in shares, then the checks of whole steps.
     const std::size_t count = sweeps_.size();
@@ -401,7 +408,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     for (std::size_t n = 0; n < count; ++n) {
         const Sweep& sweep = sweeps_[n];
         if (!sweep.shape) continue;
-        out.removed_mm3[n] = removed_[shape++];
+        if (!sweep.step.joins) out.removed_mm3[n] = removed_[shape++];
         if (sweep.is_rapid() && !sweep.step.move->is_place() && out.removed_mm3[n] > kBrush) {
             out.collisions.push_back({n, CollisionKind::rapid_through_stock, sweep.contact,
                                       motion::pose_at(*sweep.step.move, sweep.contact).tip_mm});

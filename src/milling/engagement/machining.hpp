@@ -36,7 +36,8 @@ struct Machined {
     std::vector<CutRow> rows;
     std::size_t row_count = 0;
     std::vector<Collision> collisions;
-    std::vector<double> removed_mm3;  // by step
+    // By step. The volume of a pass stands at its first step.
+    std::vector<double> removed_mm3;
 };
 
 struct MachiningOptions {
@@ -61,8 +62,8 @@ class Machining {
   private:
     struct Cylinder;
     struct Sweep;
-    // Returns false if too many earlier sweeps of this run overlap the sweep of the step.
-    bool add_sweep(const Step& step);
+    // Adds the steps of one pass. Returns false if too many earlier passes of this run overlap its sweep.
+    bool add_sweeps(std::span<const Step> pass);
     // Ends the pass that begins with this sweep and contains all sweeps up to the last one.
     void add_pass(std::size_t first, Machined& out);
     std::size_t pass_end(std::size_t first) const;

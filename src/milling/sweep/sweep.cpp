@@ -5,9 +5,11 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "base/math.hpp"
 #include "base/simd.hpp"
+#include "milling/sweep/joined_sweep.hpp"
 #include "milling/sweep/profile_sweep.hpp"
 #include "milling/sweep/sweep_frames.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
@@ -94,6 +96,46 @@ Vec3 swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
     return normalized(n.by_rho * v.radial + n.by_z * v.axis, -v.axis);
 }
 
+// Distance and gradient of a straight sweep at a point (x, y, z) of its frame.
+field::Shape::Slope straight_slope(const ToolProfile& tool, const StraightLine& line, const Frame& frame,
+                                   Vec3 q) {
+    const Profile<double> p(tool);
+    const Line<double> l(line);
+    const auto nearest = by_kind(tool.kind, [&]<CutterKind kind>() {
+        if (line.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z, kNever);
+        const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
+        return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
+    });
+    const double cap = q.z - std::max(line.rise, 0.0) - tool.length_mm;
+    if (cap > nearest.distance) return {cap, frame.z};
+    const Vec3 across{q.x - nearest.t * line.across, q.y, 0};
+    ToolView v;
+    v.axis = {0, 0, 1};
+    v.radial = normalized(across, {0, 0, 0});
+    v.rho = length(across);
+    v.z = q.z - nearest.t * line.rise;
+    v.drho = -v.radial.x * line.across;
+    v.dz = -line.rise;
+    return {nearest.distance, frame.out_of(swept_normal(tool, v, nearest.t))};
+}
+
+// Returns the distance at a point (x, y, z) of the frame if it is below `bound`, else `bound`.
+double straight_distance(const ToolProfile& tool, const StraightLine& line, Vec3 q, double bound) {
+    const Profile<double> p(tool);
+    const Line<double> l(line);
+    // Lower bounds of the distance: to the cylinder around the path, to the lowest plane of the tip, and for
+    // a ball also to the nearest of its centres if the point is below all of them.
+    const double off = q.x - unit_clamp(q.x * l.per_across) * l.across, reach = tool.radius_mm + bound;
+    const double lowest = std::min(line.rise, 0.0);
+    if (lowest - q.z >= bound) return bound;
+    const double below = tool.kind == CutterKind::ball ? std::max(lowest + tool.radius_mm - q.z, 0.0) : 0;
+    if (reach > 0 && off * off + q.y * q.y + below * below >= reach * reach) return bound;
+    return by_kind(tool.kind, [&]<CutterKind kind>() {
+        return line.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
+                              : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);
+    });
+}
+
 class StraightSweep final : public field::Shape {
   public:
     StraightSweep(const ToolProfile& tool, Vec3 from, Vec3 travel, Vec3 axis)
@@ -104,21 +146,7 @@ class StraightSweep final : public field::Shape {
     double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
 
     double distance_below(Vec3 point, double bound) const override {
-        const Vec3 q = path_.frame.into(point - path_.start);
-        const Profile<double> p(tool_);
-        const Line<double> l(path_.line);
-        // Lower bounds of the distance: to the cylinder around the path, to the lowest plane of the tip, and
-        // for a ball also to the nearest of its centres if the point is below all of them.
-        const double off = q.x - unit_clamp(q.x * l.per_across) * l.across, reach = tool_.radius_mm + bound;
-        const double lowest = std::min(path_.line.rise, 0.0);
-        if (lowest - q.z >= bound) return bound;
-        const double below =
-            tool_.kind == CutterKind::ball ? std::max(lowest + tool_.radius_mm - q.z, 0.0) : 0;
-        if (reach > 0 && off * off + q.y * q.y + below * below >= reach * reach) return bound;
-        return by_kind(tool_.kind, [&]<CutterKind kind>() {
-            return path_.line.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
-                                        : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);
-        });
+        return straight_distance(tool_, path_.line, path_.frame.into(point - path_.start), bound);
     }
 
     // It is convex.
@@ -127,25 +155,7 @@ class StraightSweep final : public field::Shape {
     Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
 
     Slope slope(Vec3 point) const override {
-        const Vec3 q = path_.frame.into(point - path_.start);
-        const Profile<double> p(tool_);
-        const Line<double> l(path_.line);
-        const auto nearest = by_kind(tool_.kind, [&]<CutterKind kind>() {
-            if (path_.line.rise != 0) return ramp_nearest<kind>(p, l, q.x, q.y, q.z, kNever);
-            const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
-            return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
-        });
-        const double cap = q.z - std::max(path_.line.rise, 0.0) - tool_.length_mm;
-        if (cap > nearest.distance) return {cap, path_.frame.z};
-        const Vec3 across{q.x - nearest.t * path_.line.across, q.y, 0};
-        ToolView v;
-        v.axis = {0, 0, 1};
-        v.radial = normalized(across, {0, 0, 0});
-        v.rho = length(across);
-        v.z = q.z - nearest.t * path_.line.rise;
-        v.drho = -v.radial.x * path_.line.across;
-        v.dz = -path_.line.rise;
-        return {nearest.distance, path_.frame.out_of(swept_normal(tool_, v, nearest.t))};
+        return straight_slope(tool_, path_.line, path_.frame, path_.frame.into(point - path_.start));
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -159,6 +169,127 @@ class StraightSweep final : public field::Shape {
   private:
     ToolProfile tool_;
     StraightFrame path_;
+};
+
+// Several straight travels with one axis, each from the end of the one before it.
+class StraightsSweep final : public field::Shape {
+  public:
+    StraightsSweep(const ToolProfile& tool, std::span<const motion::Move* const> moves)
+        : tool_(tool),
+          whole_(moves.front()->start.tip_mm, moves.back()->end.tip_mm - moves.front()->start.tip_mm,
+                 moves.front()->start.axis) {
+        std::vector<Vec3> tips{{}};
+        parts_.reserve(moves.size());
+        for (const motion::Move* move : moves) {
+            const StraightFrame own(move->start.tip_mm, move->end.tip_mm - move->start.tip_mm,
+                                    whole_.frame.z);
+            box_.include(own.box({tool_.radius_mm, tool_.length_mm}));
+            const double along_x = dot(own.frame.x, whole_.frame.x),
+                         along_y = dot(own.frame.x, whole_.frame.y);
+            parts_.push_back({whole_.frame.into(own.start - whole_.start), along_x, along_y, own.line});
+            tips.push_back(whole_.frame.into(move->end.tip_mm - whole_.start));
+            lowest_mm_ = std::min(lowest_mm_, tips.back().z);
+            highest_mm_ = std::max(highest_mm_, tips.back().z);
+        }
+        direct_ = Chord(tips);
+        for (Vec3& tip : tips) tip.z = 0;
+        level_ = Chord(tips);
+    }
+
+    Box3 bounds_mm() const override { return box_; }
+    double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
+    double distance_below(Vec3 point, double bound) const override {
+        return least(whole_.frame.into(point - whole_.start), bound).distance;
+    }
+
+    // At each instant the tool holds a piece of a line along its axis. If the path does not rise by more than
+    // the cylinder is long, all these pieces have a point in common.
+    bool is_whole_along(Vec3 direction) const override {
+        return highest_mm_ - lowest_mm_ <= tool_.length_mm - tool_.corner_mm &&
+               are_parallel(direction, whole_.frame.z);
+    }
+
+    Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
+
+    Slope slope(Vec3 point) const override {
+        const Vec3 q = whole_.frame.into(point - whole_.start);
+        const StraightPart& part = parts_[least(q, kNever).part];
+        const Frame& f = whole_.frame;
+        const Frame own{part.along_x * f.x + part.along_y * f.y, part.along_x * f.y - part.along_y * f.x,
+                        f.z};
+        return straight_slope(tool_, part.line, own, seen(part, q));
+    }
+
+    void sample(const field::Lattice& lattice, float* out) const override {
+        sample_near(lattice, kNever, out);
+    }
+
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
+        sweep_kernels().straights(tool_, parts_, whole_.frame, whole_.start, lattice, near_mm, out);
+    }
+
+  private:
+    // A path of tips beside the straight line from its start to its end.
+    struct Chord {
+        Vec3 along;              // unit; zero if the path does not advance all along the line
+        std::vector<double> at;  // of each tip, along the line
+        double off_mm = 0;       // largest distance of the path from the line
+
+        Chord() = default;
+        explicit Chord(const std::vector<Vec3>& tips) : along(normalized(tips.back(), {0, 0, 0})) {
+            for (std::size_t n = 1; n < tips.size(); ++n)
+                if (!(dot(tips[n] - tips[n - 1], along) > 0)) along = {};
+            at.reserve(tips.size());
+            for (const Vec3 tip : tips) {
+                at.push_back(dot(tip, along));
+                off_mm = std::max(off_mm, length(tip - at.back() * along));
+            }
+        }
+    };
+    struct Nearest {
+        double distance;
+        std::size_t part;
+    };
+
+    static Vec3 seen(const StraightPart& part, Vec3 q) {
+        const auto v = PartOf<double>(part).view(q.x, q.y, q.z);
+        return {v.x, v.y, v.z};
+    }
+
+    // Returns the part with the least distance if that is below `bound`. `q` is in the common frame. The
+    // cylinder about the axis is as far as its path seen along the axis; the sphere of a ball is as far as
+    // the path of its centre. Both paths are near a line. Parts that are too far away along it are left out.
+    Nearest least(Vec3 q, double bound) const {
+        Nearest least{bound, 0};
+        if (lowest_mm_ - q.z >= bound) return least;
+        const bool by_sphere = tool_.kind == CutterKind::ball && q.z - tool_.radius_mm <= lowest_mm_;
+        const Chord& chord = by_sphere ? direct_ : level_;
+        const Vec3 from_path{q.x, q.y, by_sphere ? q.z - tool_.radius_mm : 0};
+        const double at = dot(from_path, chord.along);
+        const double aside = std::max(length(from_path - at * chord.along) - chord.off_mm, 0.0);
+        // True if nothing that is at least `way` away along the line can come below the least.
+        const auto too_far = [&](double way) {
+            const double reach = tool_.radius_mm + least.distance, ahead = std::max(way, 0.0);
+            return reach <= 0 || ahead * ahead + aside * aside >= reach * reach;
+        };
+        if (too_far(std::max(chord.at.front() - at, at - chord.at.back()))) return least;
+        const auto look = [&](std::size_t n) {
+            const double d = straight_distance(tool_, parts_[n].line, seen(parts_[n], q), least.distance);
+            if (d < least.distance) least = {d, n};
+        };
+        const double share = chord.at.back() > 0 ? std::clamp(at / chord.at.back(), 0.0, 1.0) : 0;
+        const auto first = static_cast<std::size_t>(share * (static_cast<double>(parts_.size()) - 1));
+        for (std::size_t n = first; n < parts_.size() && !too_far(chord.at[n] - at); ++n) look(n);
+        for (std::size_t n = first; n-- > 0 && !too_far(at - chord.at[n + 1]);) look(n);
+        return least;
+    }
+
+    ToolProfile tool_;
+    StraightFrame whole_;  // from the start to the end
+    std::vector<StraightPart> parts_;
+    Chord direct_, level_;                   // of the path itself, and of the path seen along the axis
+    double lowest_mm_ = 0, highest_mm_ = 0;  // of the tip, in the common frame
+    Box3 box_;
 };
 
 class ArcSweep final : public field::Shape {
@@ -210,7 +341,7 @@ class CurvedSweep final : public field::Shape {
           line_(curved_line(move)),
           instants_(line_),
           upright_(UprightCurve::of(tool_, line_)),
-          box_(curved_box({tool_.radius_mm, tool_.length_mm}, line_, start_)) {}
+          box_(curved_box({tool_.radius_mm, tool_.length_mm + cap_rise_mm()}, line_, start_)) {}
 
     Box3 bounds_mm() const override { return box_; }
 
@@ -279,6 +410,15 @@ class CurvedSweep final : public field::Shape {
     }
 
   private:
+    // The highest position of the cap counts for the whole sweep. Returns how far it may be above the cap at
+    // any other instant.
+    double cap_rise_mm() const {
+        const TravelBounds& b = line_.bounds;
+        double rise = 0;
+        for (const Vec3 tip : {0.5 * line_.tip1, line_.tip1 + line_.tip2})
+            rise = std::max(rise, std::abs(dot(tip, line_.axis0)));
+        return 2 * rise + b.turn * (b.speed + tool_.length_mm + tool_.radius_mm);
+    }
     // Returns how far the point is outside the box, along the axis along which it is farthest.
     static double beyond(const Box3& box, Vec3 p) {
         const auto along = [](double low, double at, double high) { return std::max(low - at, at - high); };
@@ -377,6 +517,19 @@ std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Mov
     if (move.quadratic || move.start.axis != move.end.axis) return std::make_unique<CurvedSweep>(tool, move);
     return std::make_unique<StraightSweep>(tool, move.start.tip_mm, move.end.tip_mm - move.start.tip_mm,
                                            move.start.axis);
+}
+
+std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, std::span<const motion::Move* const> moves) {
+    if (moves.size() == 1) return make_sweep(cutter, *moves.front());
+    const auto joins_straight = [&](const motion::Move* move) {
+        return !move->arc && !move->quadratic && move->start.axis == moves.front()->start.axis &&
+               move->end.axis == moves.front()->start.axis;
+    };
+    if (!cutter.has_profile() && moves.size() <= kMostParts && std::ranges::all_of(moves, joins_straight))
+        return std::make_unique<StraightsSweep>(ToolProfile(cutter), moves);
+    std::vector<std::unique_ptr<const field::Shape>> sweeps;
+    for (const motion::Move* move : moves) sweeps.push_back(make_sweep(cutter, *move));
+    return join_sweeps(std::move(sweeps));
 }
 
 }  // namespace tribo::milling

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 
 #include "field/shape/shape.hpp"
 #include "milling/tool/cutter.hpp"
@@ -25,5 +26,10 @@ namespace tribo::milling {
 // sweep is the highest position of the top of the tool. Other moves are not elementary; do not pass them
 // here.
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& elementary);
+
+// Returns the union of the sweeps of moves that join (joined_moves.hpp), at least one: each begins where the
+// one before it ends, and all go nearly the same way. A field stores, prunes and asks one shape in place of
+// many.
+std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, std::span<const motion::Move* const> moves);
 
 }  // namespace tribo::milling

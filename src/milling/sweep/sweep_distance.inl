@@ -48,6 +48,7 @@ TRIBO_LANES T profile_distance(const Profile<T>& p, T rho_squared, T z) {
 template <class T>
 struct Line {
     T across, rise, per_across, per_length_squared;
+    Line() = default;
     explicit Line(const StraightLine& s)
         : across(broadcast<T>(s.across)),
           rise(broadcast<T>(s.rise)),
@@ -74,16 +75,22 @@ TRIBO_LANES T capped(const Profile<T>& p, const Line<T>& l, T distance, T z) {
 }
 
 // min over t of max(A, B), A = rho(t) - R convex, B = t rise - z linear. Either A is the larger one at its
-// own minimum, or the minimum lies where the falling B meets A: a t^2 - 2 b t + c = 0, rho^2 = (R + t rise -
-// z)^2.
+// own minimum, or B at its own, or the minimum lies where the falling B meets A: a t^2 - 2 b t + c = 0,
+// rho^2 = (R + t rise - z)^2. The root is worked out only where some lane needs it.
 template <class T>
 TRIBO_LANES Least<T> ramp_flat(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1);
-    const auto at = [&](T t) {
+    const auto side = [&](T t) {
         const T dx = x - t * l.across;
-        return max(sqrt(dx * dx + y * y) - p.R, t * l.rise - z);
+        return sqrt(dx * dx + y * y) - p.R;
     };
-    const T nearest = unit_clamp(x * l.per_across);
+    const auto bottom = [&](T t) { return t * l.rise - z; };
+    const T nearest = unit_clamp(x * l.per_across), end = select(l.rise < zero, one, zero);
+    const T side_alone = side(nearest), bottom_alone = bottom(end);
+    const auto by_side = side_alone >= bottom(nearest), by_bottom = bottom_alone >= side(end);
+    Least<T> least{select(by_side, side_alone, bottom_alone), select(by_side, nearest, end)};
+    const auto known = either(by_side, by_bottom);
+    if (every(known)) return least;
     const T w = p.R - z;
     const T a = l.across * l.across - l.rise * l.rise;
     const T b = x * l.across + w * l.rise;
@@ -94,31 +101,43 @@ TRIBO_LANES Least<T> ramp_flat(const Profile<T>& p, const Line<T>& l, T x, T y, 
     const T quotient_low = select(a == zero, one, a), quotient_high = select(other == zero, one, other);
     const T meet =
         select(down * b >= zero, select(a == zero, down, stable / quotient_low), c / quotient_high);
-    const T end = select(l.rise < zero, one, zero);
     const T between = min(max(meet, min(nearest, end)), max(nearest, end));
-    Least<T> least{at(nearest), nearest};
-    take(least, at(between), between);
-    take(least, at(end), end);
-    return least;
+    Least<T> edge{max(side_alone, bottom(nearest)), nearest};
+    take(edge, max(side(between), bottom(between)), between);
+    take(edge, max(side(end), bottom_alone), end);
+    return {select(known, least.distance, edge.distance), select(known, least.t, edge.t)};
 }
 
-// The distance is smooth and convex in t. Its minimum is the minimum of the sphere below the height of the
-// centre, the minimum of the cylinder above it, or the instant at which the point passes that height.
+// The square of the distance to the path of the centre. It is smooth and convex in t. Its minimum is the
+// minimum of the sphere below the height of the centre, the minimum of the cylinder above it, or the instant
+// at which the point passes that height. Above or below all heights of the centre one of them is known to
+// count.
 template <class T>
-TRIBO_LANES Least<T> ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+TRIBO_LANES Least<T> ramp_ball_squared(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1);
-    const T height = z - p.R;
+    const T height = z - p.R, aside = y * y;
     const auto squared = [&](T t) {
         const T dx = x - t * l.across, dz = min(height - t * l.rise, zero);
-        return dx * dx + dz * dz;
+        return dx * dx + dz * dz + aside;
     };
-    const T sphere = unit_clamp((x * l.across + height * l.rise) * l.per_length_squared);
+    const auto above = height >= max(l.rise, zero), under = height <= min(l.rise, zero);
     const T cylinder = unit_clamp(x * l.per_across);
+    const T of_cylinder = squared(cylinder);
+    if (every(above)) return {of_cylinder, cylinder};
+    const T sphere = unit_clamp((x * l.across + height * l.rise) * l.per_length_squared);
+    const T of_sphere = squared(sphere);
+    if (every(under)) return {of_sphere, sphere};
     const T level = unit_clamp(height / select(l.rise == zero, one, l.rise));
-    Least<T> least{squared(sphere), sphere};
-    take(least, squared(cylinder), cylinder);
+    Least<T> least{of_sphere, sphere};
+    take(least, of_cylinder, cylinder);
     take(least, squared(level), level);
-    return {sqrt(least.distance + y * y) - p.R, least.t};
+    return {select(above, of_cylinder, select(under, of_sphere, least.distance)),
+            select(above, cylinder, select(under, sphere, least.t))};
+}
+template <class T>
+TRIBO_LANES Least<T> ramp_ball(const Profile<T>& p, const Line<T>& l, T x, T y, T z) {
+    const Least<T> least = ramp_ball_squared(p, l, x, y, z);
+    return {sqrt(least.distance) - p.R, least.t};
 }
 
 // The tool at one instant as seen from a point. Parameters: rho^2, half its derivative by t, z, its
@@ -173,6 +192,28 @@ template <CutterKind kind, class T>
 TRIBO_LANES T ramp_distance(const Profile<T>& p, const Line<T>& l, T x, T y, T z, T near) {
     return capped(p, l, ramp_nearest<kind>(p, l, x, y, z, near).distance, z);
 }
+
+// One of several travels. `view` turns a point of their common frame into the coordinates of this one.
+template <class T>
+struct PartOf {
+    Line<T> line;
+    T start_x, start_y, start_z, along_x, along_y;
+    PartOf() = default;
+    explicit PartOf(const StraightPart& part)
+        : line(part.line),
+          start_x(broadcast<T>(part.start.x)),
+          start_y(broadcast<T>(part.start.y)),
+          start_z(broadcast<T>(part.start.z)),
+          along_x(broadcast<T>(part.along_x)),
+          along_y(broadcast<T>(part.along_y)) {}
+    struct View {
+        T x, y, z;
+    };
+    TRIBO_LANES View view(T x, T y, T z) const {
+        const T dx = x - start_x, dy = y - start_y;
+        return {dx * along_x + dy * along_y, dy * along_x - dx * along_y, z - start_z};
+    }
+};
 
 // Distance to the swept path in the plane of an arc about the origin. The arc starts on the x axis and turns
 // to the left by at most half a turn; end = (cos, sin) of the turn.

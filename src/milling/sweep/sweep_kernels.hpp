@@ -4,6 +4,8 @@
 // the same bits.
 #pragma once
 
+#include <span>
+
 #include "field/shape/shape.hpp"
 #include "milling/sweep/sweep_lines.hpp"
 
@@ -27,6 +29,9 @@ struct SweepKernels {
     // If a search is needed: exact within `near_mm` of the surface, beyond that only on the right side of it.
     void (*straight)(const ToolProfile&, const StraightLine&, const Frame&, Vec3 reference,
                      const field::Lattice&, double near_mm, float* out);
+    // The union of several straight sweeps; only the side is exact beyond `near_mm`.
+    void (*straights)(const ToolProfile&, std::span<const StraightPart>, const Frame&, Vec3 reference,
+                      const field::Lattice&, double near_mm, float* out);
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
     // The same accuracy.

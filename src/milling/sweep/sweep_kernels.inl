@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The kernels of sweep_kernels.hpp; included by sweep_kernels_sse2.cpp and sweep_kernels_v3.cpp.
+#include <algorithm>
+#include <array>
+
 #include "base/simd.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
 
@@ -118,6 +121,50 @@ void straight(const ToolProfile& tool, const StraightLine& line, const Frame& fr
 }
 
 template <CutterKind kind>
+void straights_of(const ToolProfile& tool, std::span<const StraightPart> parts, const Frame& frame,
+                  const Offsets& at, const FarRows& far, float* out) {
+    const Profile<F8> p(tool);
+    double lowest_top = kNever;  // of the caps
+    std::array<PartOf<F8>, kMostParts> part_of;
+    std::size_t count = 0;
+    for (const StraightPart& part : parts) {
+        lowest_top = std::min(lowest_top, part.start.z + std::max(part.line.rise, 0.0) + tool.length_mm);
+        part_of[count++] = PartOf<F8>(part);
+    }
+    const F8 under_caps = broadcast<F8>(lowest_top - tool.radius_mm);
+    over_rows(at, frame, far, out, [&](F8 x, F8 y, F8 z) {
+        F8 least = broadcast<F8>(kNever);
+        // No distance is below -R: up to here no cap counts.
+        if (kind == CutterKind::ball && every(z <= under_caps)) {
+            for (std::size_t n = 0; n < count; ++n) {
+                const auto v = part_of[n].view(x, y, z);
+                least = min(least, ramp_ball_squared(p, part_of[n].line, v.x, v.y, v.z).distance);
+            }
+            return sqrt(least) - p.R;
+        }
+        for (std::size_t n = 0; n < count; ++n) {
+            const auto v = part_of[n].view(x, y, z);
+            least = min(least, ramp_distance<kind>(p, part_of[n].line, v.x, v.y, v.z, far.near));
+        }
+        return least;
+    });
+}
+
+void straights(const ToolProfile& tool, std::span<const StraightPart> parts, const Frame& frame,
+               Vec3 reference, const field::Lattice& lattice, double near_mm, float* out) {
+    const Offsets at(lattice, reference);
+    const FarRows far(near_mm, lattice.cell_mm);
+    switch (tool.kind) {
+        case CutterKind::ball:
+            return straights_of<CutterKind::ball>(tool, parts, frame, at, far, out);
+        case CutterKind::bull:
+            return straights_of<CutterKind::bull>(tool, parts, frame, at, far, out);
+        default:
+            return straights_of<CutterKind::flat>(tool, parts, frame, at, far, out);
+    }
+}
+
+template <CutterKind kind>
 void arc_of(const ToolProfile& tool, const ArcLine& line, const Frame& frame, const Offsets& at, float* out) {
     const Profile<F8> p(tool);
     const Round<F8> a(line);
@@ -212,7 +259,7 @@ void floors(const ToolProfile& tool, const CurvedInstants& at, const TravelBound
     }
 }
 
-constexpr SweepKernels kKernels{straight, arc, curved, floors};
+constexpr SweepKernels kKernels{straight, straights, arc, curved, floors};
 
 }  // namespace
 }  // namespace tribo::milling

@@ -34,6 +34,16 @@ struct StraightLine {
     }
 };
 
+// One of several straight travels with the same axis, in a frame that all of them share: the tip at its
+// start, and the unit direction (along_x, along_y) of its part across the axis.
+// At most kMostParts form one sweep.
+inline constexpr std::size_t kMostParts = 16;
+struct StraightPart {
+    Vec3 start;
+    double along_x = 1, along_y = 0;
+    StraightLine line;
+};
+
 // Travel about the frame's z (parallel or opposite to the tool axis), from (radius, 0) to the left by at most
 // half a turn.
 struct ArcLine {

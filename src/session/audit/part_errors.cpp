@@ -17,7 +17,7 @@ void take_larger(PartErrors::Largest& largest, const PartErrors::Largest& other)
 PartErrors::PartErrors(const MillSession& session, const surface::DeviationReport& deviation) {
     std::map<std::size_t, Largest> of_move;
     const auto add = [&](Vec3 machined_mm, const Largest& error) {
-        const auto move = session.move_of_piece(session.stock().sample(machined_mm).piece);
+        const auto move = session.move_at(machined_mm);
         if (move) take_larger(of_move[*move], error);
         return move;
     };

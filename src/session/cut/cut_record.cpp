@@ -143,7 +143,7 @@ std::uint64_t bake_key(const MillSetup& setup, const contact::ForceTableOptions&
     hash.add(setup.blank_volume_mm3);
     for (const EarlierCuts& cuts : setup.earlier) {
         hash.add(hash_of_moves(cuts));
-        hash.add(hash_of_cutters(cuts));
+        hash.add(hash_of_cutters(cuts.cutters));
     }
     if (setup.engagement) {
         hash.add(setup.engagement->entry_rad);

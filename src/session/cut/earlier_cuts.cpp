@@ -17,54 +17,80 @@ namespace {
 constexpr std::size_t kCarvedAtOnce = 256;
 static_assert(kCarvedAtOnce <= field::CarvedField::kMostAtOnce);
 
+// Calls visit(index, move) for the moves up to until_s that are no dwells. The last one ends there.
+template <class Visit>
+void over_planned_cuts(const MillSetup& setup, const Visit& visit) {
+    const auto schedule = setup.until_s ? schedule_of(setup) : nullptr;
+    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
+        const motion::Move& move = setup.moves[n];
+        const bool is_dwell = move.kind == motion::MoveKind::dwell;
+        if (schedule) {
+            const motion::MoveTiming& timing = schedule->moves[n];
+            if (timing.start_s >= *setup.until_s) return;
+            if (timing.end_s > *setup.until_s && !is_dwell) {
+                const double length = timing.path_fraction(*setup.until_s) * motion::path_length_mm(move);
+                visit(n, motion::first_part(move, motion::parameter_at_length(move, length)));
+                continue;
+            }
+        }
+        if (!is_dwell) visit(n, move);
+    }
+}
+
+class MovesHash {
+  public:
+    void add(const motion::Move& move, std::size_t cutter) {
+        session::add(hash_, move.start);
+        session::add(hash_, move.end);
+        hash_.add(move.arc.has_value());
+        if (move.arc) {
+            hash_.add(move.arc->centre_mm);
+            hash_.add(move.arc->normal);
+            hash_.add(move.arc->turn_rad);
+        }
+        hash_.add(move.quadratic.has_value());
+        if (move.quadratic) {
+            hash_.add(move.quadratic->tip_control_mm);
+            hash_.add(move.quadratic->axis_control);
+        }
+        hash_.add(cutter);
+    }
+    std::uint64_t value() const { return hash_.value(); }
+
+  private:
+    Hash hash_;
+};
+
 }  // namespace
 
 EarlierCuts planned_cuts(const MillSetup& setup) {
     EarlierCuts cuts;
     cuts.cutters = setup.cutters;
-    const auto schedule = setup.until_s ? schedule_of(setup) : nullptr;
-    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
-        motion::Move move = setup.moves[n];
-        if (schedule) {
-            const motion::MoveTiming& timing = schedule->moves[n];
-            if (timing.start_s >= *setup.until_s) break;
-            if (timing.end_s > *setup.until_s) {
-                const double length = timing.path_fraction(*setup.until_s) * motion::path_length_mm(move);
-                move = motion::first_part(move, motion::parameter_at_length(move, length));
-            }
-        }
-        if (move.kind == motion::MoveKind::dwell) continue;
+    const std::vector<char> joins = joins_of(setup);
+    over_planned_cuts(setup, [&](std::size_t n, const motion::Move& move) {
         cuts.moves.push_back(move);
         cuts.cutter_of_move.push_back(setup.cutter_of_move[n]);
-    }
+        cuts.joins.push_back(joins[n]);
+    });
     return cuts;
 }
 
-std::uint64_t hash_of_moves(const EarlierCuts& cuts) {
-    Hash hash;
-    for (std::size_t n = 0; n < cuts.moves.size(); ++n) {
-        const motion::Move& move = cuts.moves[n];
-        add(hash, move.start);
-        add(hash, move.end);
-        hash.add(move.arc.has_value());
-        if (move.arc) {
-            hash.add(move.arc->centre_mm);
-            hash.add(move.arc->normal);
-            hash.add(move.arc->turn_rad);
-        }
-        hash.add(move.quadratic.has_value());
-        if (move.quadratic) {
-            hash.add(move.quadratic->tip_control_mm);
-            hash.add(move.quadratic->axis_control);
-        }
-        hash.add(cuts.cutter_of_move[n]);
-    }
+std::uint64_t hash_of_planned_moves(const MillSetup& setup) {
+    MovesHash hash;
+    over_planned_cuts(
+        setup, [&](std::size_t n, const motion::Move& move) { hash.add(move, setup.cutter_of_move[n]); });
     return hash.value();
 }
 
-std::uint64_t hash_of_cutters(const EarlierCuts& cuts) {
+std::uint64_t hash_of_moves(const EarlierCuts& cuts) {
+    MovesHash hash;
+    for (std::size_t n = 0; n < cuts.moves.size(); ++n) hash.add(cuts.moves[n], cuts.cutter_of_move[n]);
+    return hash.value();
+}
+
+std::uint64_t hash_of_cutters(std::span<const milling::Cutter> cutters) {
     Hash hash;
-    for (const milling::Cutter& cutter : cuts.cutters) {
+    for (const milling::Cutter& cutter : cutters) {
         hash.add(static_cast<int>(cutter.kind));
         hash.add(cutter.diameter_mm);
         hash.add(cutter.corner_mm);
@@ -100,9 +126,13 @@ bool carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier,
     std::vector<std::unique_ptr<const field::Shape>> shapes;
     std::array<double, kCarvedAtOnce> removed_mm3;
     for (const EarlierCuts& cuts : earlier) {
-        for (std::size_t n = 0; n < cuts.moves.size(); ++n) {
-            shapes.push_back(milling::make_sweep(cuts.cutters[cuts.cutter_of_move[n]], cuts.moves[n]));
-            if (++done < all && shapes.size() < kCarvedAtOnce) continue;
+        for (std::size_t n = 0, end; n < cuts.moves.size(); n = end) {
+            std::vector<const motion::Move*> pass;
+            for (end = n; end == n || (end < cuts.joins.size() && cuts.joins[end]); ++end)
+                pass.push_back(&cuts.moves[end]);
+            shapes.push_back(milling::make_sweep(cuts.cutters[cuts.cutter_of_move[n]], pass));
+            done += pass.size();
+            if (done < all && shapes.size() < kCarvedAtOnce) continue;
             stock.carve(shapes, std::span(removed_mm3).first(shapes.size()));
             shapes.clear();
             if (progress && !progress(static_cast<double>(done) / static_cast<double>(all))) return false;

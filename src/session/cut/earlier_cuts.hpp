@@ -22,15 +22,18 @@ struct EarlierCuts {
     std::vector<milling::Cutter> cutters;
     std::vector<motion::Move> moves;          // elementary, without dwells
     std::vector<std::size_t> cutter_of_move;  // index into `cutters`, one per move
+    std::vector<char> joins;                  // one per move (joins_of), or empty: no move joins another
 };
 
 // The cuts of a setup up to its until_s. The last move ends there.
 EarlierCuts planned_cuts(const MillSetup& setup);
 
 // Hashes of everything that decides the removed material: paths and kinds of the moves; sizes of the cutters.
-// Feeds, speeds and flutes are not included.
+// Feeds, speeds and flutes are not included. hash_of_planned_moves(s) is hash_of_moves(planned_cuts(s))
+// without a copy of the moves.
 std::uint64_t hash_of_moves(const EarlierCuts& cuts);
-std::uint64_t hash_of_cutters(const EarlierCuts& cuts);
+std::uint64_t hash_of_planned_moves(const MillSetup& setup);
+std::uint64_t hash_of_cutters(std::span<const milling::Cutter> cutters);
 
 // The move in the coordinates of a frame. Exact if the origin is 0 and the axes are parallel to the axes of
 // the stock.

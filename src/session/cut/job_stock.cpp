@@ -24,7 +24,7 @@ motion::WorkFrame composed(const motion::WorkFrame& outer, const motion::WorkFra
 job::StockRecord record_of(const EarlierCuts& cuts, std::uint64_t stock_hash) {
     job::StockRecord record;
     record.stock = stock_hash;
-    record.cutters = hash_of_cutters(cuts);
+    record.cutters = hash_of_cutters(cuts.cutters);
     record.moves = hash_of_moves(cuts);
     return record;
 }
@@ -103,7 +103,10 @@ Result<JobStock> stock_of(const job::LoadedJob& loaded, Warnings& warnings, std:
 }
 
 job::StockRecord stock_record(const MillSetup& setup) {
-    job::StockRecord record = record_of(planned_cuts(setup), setup.stock_hash);
+    job::StockRecord record;
+    record.stock = setup.stock_hash;
+    record.cutters = hash_of_cutters(setup.cutters);
+    record.moves = hash_of_planned_moves(setup);
     record.until_s = setup.until_s;
     return record;
 }

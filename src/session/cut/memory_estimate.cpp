@@ -5,12 +5,14 @@
 #include <array>
 #include <bitset>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "field/carved/carved_field.hpp"
 #include "milling/tool/convex_zones.hpp"
 #include "motion/path/path.hpp"
 #include "session/cut/kept_states.hpp"
+#include "session/cut/mill_session.hpp"
 
 namespace tribo::session {
 namespace {
@@ -28,7 +30,8 @@ constexpr double kToCorner = 0.8661;
 constexpr double kMostCells = 5e8;
 // Bytes of a move with its timing and other data, and of its sweep, with the overhead of the heap.
 constexpr double kMoveBytes = sizeof(motion::Move) + 2 * sizeof(motion::MoveTiming) + 64;
-constexpr double kSweepBytes = 320, kCurvedSweepBytes = 1400;
+// A straight move that joins another is a part of its sweep.
+constexpr double kSweepBytes = 320, kCurvedSweepBytes = 1400, kPartBytes = 130;
 // Typical number of vertices of a brick that was cut. A brick on a flat face has one.
 constexpr double kCutBrickVertices = 25;
 // Bytes of meshing, measured: per vertex with its two triangles, including growth of the arrays; for the
@@ -200,6 +203,14 @@ double steps_of(const motion::Move& move, const milling::Cutter& cutter, double 
     return std::floor(travel_mm(move, cutter) / (0.5 * edge)) + 1;
 }
 
+// Number of straight moves that share a sweep with the move before them.
+double joined_parts(std::span<const motion::Move> moves, std::span<const char> joins) {
+    double count = 0;
+    for (std::size_t n = 0; n < joins.size(); ++n)
+        count += joins[n] && !moves[n].quadratic && moves[n].start.axis == moves[n].end.axis ? 1 : 0;
+    return count;
+}
+
 // Calls visit(move, cutter, is_last) for the moves of earlier jobs and of the setup.
 template <class Visit>
 void over_moves(const MillSetup& setup, const Visit& visit) {
@@ -257,6 +268,8 @@ MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
         travelled = 0;
         last_cutter = &cutter;
     });
+    joined_parts_ = joined_parts(setup.moves, joins_of(setup));
+    for (const EarlierCuts& cuts : setup.earlier) joined_parts_ += joined_parts(cuts.moves, cuts.joins);
     surface_cells_ = stock.most_surface_cells();
     touched_cells_ = stock.touched_cells();
 }
@@ -272,7 +285,7 @@ double MemoryEstimate::touched_bricks(double cell_mm) const {
 }
 
 double MemoryEstimate::session_bytes(double cell_mm) const {
-    return solid_bytes_ + moves_ * (kMoveBytes + kSweepBytes) +
+    return solid_bytes_ + moves_ * (kMoveBytes + kSweepBytes) - joined_parts_ * (kSweepBytes - kPartBytes) +
            curved_moves_ * (kCurvedSweepBytes - kSweepBytes) +
            field::CarvedField::estimated_bytes(blank_, cell_mm, cut_bricks(cell_mm), touched_bricks(cell_mm));
 }

@@ -37,7 +37,7 @@ class MemoryEstimate {
     Box3 blank_;
     double coarse_mm_ = 1;
     double surface_cells_ = 0, touched_cells_ = 0;
-    double moves_ = 0, curved_moves_ = 0, solid_bytes_ = 0;
+    double moves_ = 0, curved_moves_ = 0, joined_parts_ = 0, solid_bytes_ = 0;
 };
 
 // A run over the memory budget, and a grid with which it fits.

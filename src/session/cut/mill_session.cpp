@@ -5,10 +5,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "base/math.hpp"
 #include "milling/engagement/joined_moves.hpp"
+#include "milling/sweep/sweep.hpp"
 #include "motion/path/path.hpp"
 
 namespace tribo::session {
@@ -26,6 +28,19 @@ constexpr std::size_t kTasks = 8;
 std::shared_ptr<const motion::Schedule> schedule_of(const MillSetup& setup) {
     if (setup.schedule) return setup.schedule;
     return std::make_shared<const motion::Schedule>(*motion::schedule(setup.moves, setup.timing));
+}
+
+std::vector<char> joins_of(const MillSetup& setup) {
+    const auto schedule = schedule_of(setup);
+    milling::JoinedMoves joined;
+    std::vector<char> joins;
+    joins.reserve(setup.moves.size());
+    for (std::size_t n = 0; n < setup.moves.size(); ++n) {
+        const motion::MoveTiming& timing = schedule->moves[n];
+        joins.push_back(setup.join_moves && joined.add(setup.moves[n], setup.cutters[setup.cutter_of_move[n]],
+                                                       setup.rpm_of_move[n], timing.end_s - timing.start_s));
+    }
+    return joins;
 }
 
 class MillSession::Run {
@@ -46,14 +61,8 @@ class MillSession::Run {
         last_piece_of_move_.reserve(setup_.moves.size());
         end_s_ = std::min(schedule_->duration_s, setup_.until_s.value_or(schedule_->duration_s));
         cutting_at_.assign(setup_.cutters.size(), 0);
-        milling::JoinedMoves joined;
-        joins_.reserve(setup_.moves.size());
-        for (std::size_t n = 0; n < setup_.moves.size(); ++n) {
-            const motion::MoveTiming& timing = schedule_->moves[n];
-            joins_.push_back(setup_.join_moves &&
-                             joined.add(setup_.moves[n], setup_.cutters[setup_.cutter_of_move[n]],
-                                        setup_.rpm_of_move[n], timing.end_s - timing.start_s));
-        }
+        setup_.schedule = schedule_;
+        joins_ = joins_of(setup_);
     }
 
     bool run_to(double to_s, const MillSinks& sinks) {
@@ -108,6 +117,10 @@ class MillSession::Run {
             std::ranges::lower_bound(moves.begin(), end, t_s, {}, &motion::MoveTiming::start_s) -
             moves.begin());
     }
+    // True if the move begins a piece of the stock's surface: one sweep of one pass.
+    bool begins_piece(std::size_t move) const {
+        return setup_.moves[move].kind != motion::MoveKind::dwell && !joins_[move];
+    }
 
     void restore(std::size_t moves) {
         carved_moves_ = states_->last(moves);
@@ -117,12 +130,13 @@ class MillSession::Run {
     // Carves moves that were milled before, up to the limit.
     bool carve_again(const MillSinks& sinks) {
         if (carved_moves_ == next_move_) return true;
-        const std::size_t due = moves_begun(limit_s_);
+        std::size_t due = moves_begun(limit_s_);
+        while (due < next_move_ && joins_[due]) ++due;  // a pass is carved as a whole
         if (states_->last(due) > carved_moves_) restore(due);
         while (carved_moves_ < due) {
             std::size_t shapes = 0;
-            for (; carved_moves_ < due && shapes < kShapesAtOnce; ++carved_moves_)
-                shapes += setup_.moves[carved_moves_].kind == motion::MoveKind::dwell ? 0 : 1;
+            for (; carved_moves_ < due && (shapes < kShapesAtOnce || joins_[carved_moves_]); ++carved_moves_)
+                shapes += begins_piece(carved_moves_) ? 1 : 0;
             stock_.carve_again(shapes);
             states_->offer(stock_, carved_moves_);
             if (sinks.progress && !sinks.progress(std::min(1.0, milled_s() / end_s_))) return false;
@@ -168,7 +182,7 @@ class MillSession::Run {
                 if (totals_.stood_in_mm3 == 0) totals_.stood_in_line = steps_[n].move->line;
                 totals_.stood_in_mm3 += machined_.removed_mm3[n];
             }
-            if (steps_[n].move->kind != motion::MoveKind::dwell) ++pieces_;
+            if (begins_piece(next_move_ + n)) ++pieces_;
             last_piece_of_move_.push_back(pieces_);
         }
         assert(pieces_ == stock_.shapes_carved());
@@ -363,11 +377,22 @@ const motion::Schedule& MillSession::schedule() const {
 const field::CarvedField& MillSession::stock() const {
     return run_->stock_;
 }
-std::optional<std::size_t> MillSession::move_of_piece(std::uint32_t piece) const {
+std::optional<std::size_t> MillSession::move_at(Vec3 surface_mm) const {
+    const std::uint32_t piece = run_->stock_.sample(surface_mm).piece;
     if (piece <= run_->earlier_pieces_) return std::nullopt;
-    const auto made = std::ranges::lower_bound(run_->last_piece_of_move_, piece);
-    if (made == run_->last_piece_of_move_.end()) return std::nullopt;
-    return static_cast<std::size_t>(made - run_->last_piece_of_move_.begin());
+    const auto& pieces = run_->last_piece_of_move_;
+    const auto [first, last] = std::ranges::equal_range(pieces, piece);
+    std::optional<std::size_t> made;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (auto at = first; at != last; ++at) {
+        const auto n = static_cast<std::size_t>(at - pieces.begin());
+        const motion::Move& move = run_->setup_.moves[n];
+        if (move.kind == motion::MoveKind::dwell) continue;
+        const milling::Cutter& cutter = run_->setup_.cutters[run_->setup_.cutter_of_move[n]];
+        const double d = milling::make_sweep(cutter, move)->distance_mm(surface_mm);
+        if (d < nearest) nearest = d, made = n;
+    }
+    return made;
 }
 std::unique_ptr<field::FieldReader> MillSession::read_stock() {
     return std::make_unique<field::FieldReader>(run_->stock_);

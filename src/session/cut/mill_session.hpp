@@ -70,6 +70,10 @@ struct MillSetup {
 // Never null. motion::schedule() must accept the moves.
 std::shared_ptr<const motion::Schedule> schedule_of(const MillSetup& setup);
 
+// For each move: true if it forms one pass with the move before it (milling::JoinedMoves). A pass shares rows
+// and is one piece of the stock's surface.
+std::vector<char> joins_of(const MillSetup& setup);
+
 struct MillSinks {
     // Called in the order of time, only while cutting. May be empty. References are valid during the call.
     std::function<void(const milling::CutRow&, const milling::RowForce&)> row;
@@ -110,9 +114,9 @@ class MillSession {
     // The times of setup().moves.
     const motion::Schedule& schedule() const;
     const field::CarvedField& stock() const;
-    // The move of setup().moves that made a piece of the stock (contact::SurfaceSample::piece). None: the
-    // blank, or an earlier job.
-    std::optional<std::size_t> move_of_piece(std::uint32_t piece) const;
+    // The move of setup().moves that made the surface of the stock at this point. None: the blank, or an
+    // earlier job.
+    std::optional<std::size_t> move_at(Vec3 surface_mm) const;
     // A reader of the stock for another thread while this one mills. At most one exists at a time. Created
     // and destroyed on the milling thread, before the session (field/carved/field_reader.hpp).
     std::unique_ptr<field::FieldReader> read_stock();

@@ -194,6 +194,10 @@ Result<MillSetup> prepare_moves(const job::Job& job, const motion::Program& prog
                                  job.engagement->exit_deg * math::kRadPerDeg, job.engagement->axial_depth_mm};
     }
     ToolChoice tools(job, program, warnings);
+    // Most moves are elementary. Growing step by step would take up to three times the memory.
+    setup.moves.reserve(program.moves.size());
+    setup.cutter_of_move.reserve(program.moves.size());
+    setup.rpm_of_move.reserve(program.moves.size());
     for (const motion::Move& move : program.moves) {
         const auto cutter = tools.cutter_for(move);
         if (!cutter) return std::unexpected(cutter.error());

@@ -165,7 +165,7 @@ TEST(MillSession, knows_the_move_that_made_a_place) {
         const MillSetup& setup = session.setup();
         const std::vector<Vec3> points = field::surface_points(session.stock(), 200);
         for (const Vec3 point : points) {
-            const auto move = session.move_of_piece(session.stock().sample(point).piece);
+            const auto move = session.move_at(point);
             if (!move) {
                 ++blank;
                 continue;
