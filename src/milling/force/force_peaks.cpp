@@ -18,9 +18,10 @@ constexpr double kStepRad = 1.0 / 24;
 // A stretch shorter than this, in which nothing enters or leaves, bends by less than 1e-4 of the force
 // between its ends.
 constexpr double kShortRad = 0.015;
-// Fewest steps over the whole entering or leaving of a rounded piece; fewest steps over any part of it if the
-// piece is at the tip; a piece is at the tip if z0 / z1 is below kTipShare.
-constexpr double kPartialSteps = 6;
+// Fewest steps over the whole entering or leaving of a rounded piece: one for each kPartialStepRad, within
+// these limits. Two suffice for a short one, as its force runs nearly along a parabola. Fewest steps over any
+// part of a piece at the tip; a piece is at the tip if z0 / z1 is below kTipShare.
+constexpr double kPartialStepRad = 0.004, kFewestPartialSteps = 2, kPartialSteps = 6;
 constexpr int kRootSteps = 4;
 constexpr double kTipShare = 0.2;
 // Borders closer than this count as one.
@@ -161,7 +162,8 @@ void PeakFinder::scan(const EngagedEdges& tool, double from, double to, Extremes
         shortest = std::min(shortest, edge.lag1_rad - edge.lag0_rad);
     }
     const bool left_hand = tool.lag_per_mm() < 0;
-    const int part = static_cast<int>(std::ceil(std::min(kPartialSteps * length / shortest, kPartialSteps)));
+    const double whole = std::clamp(shortest / kPartialStepRad, kFewestPartialSteps, kPartialSteps);
+    const int part = static_cast<int>(std::ceil(whole * std::min(length / shortest, 1.0)));
     const int usual = length < kShortRad ? 1 : 2;
     const int least = here_.empty() ? usual : std::max(root ? kRootSteps : usual, part);
     const int steps = std::max(least, static_cast<int>(std::ceil((root ? 2 : 1) * length / kStepRad)));
