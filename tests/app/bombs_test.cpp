@@ -87,7 +87,7 @@ const Bomb kBombs[] = {
          f.put("p.apt", "UNITS/MM\nFEDRAT/900\n" +
                             repeated("GOTO/-900000,0,0,0,0,1\nGOTO/900000,0,0,0.5,0,1\n", 1000) + "FINI\n");
      },
-     kRenderIn100Mb, "p.apt:4: error: up to here the moves are split into more than", 250},
+     kRenderIn100Mb, "p.apt:5: error: up to here the moves are split into more than", 250},
 };
 
 TEST(Bombs, are_refused_in_bounded_time_and_memory) {
