@@ -14,6 +14,9 @@ constexpr double kLongestOfDiameter = 0.5;
 // Largest number of moves and of rows in one pass: viewers see the stock between passes only.
 constexpr int kMostJoined = 16;
 constexpr double kMostRows = 4;
+// Longest move that shares a sweep, in radii of the cutter. Near a longer one lie few others: each of the two
+// alone is asked for less than both together.
+constexpr double kLongestPart = 0.2;
 // The travel of the tip and of the upper end of the flutes may differ from the first one by this share.
 constexpr double kOffWay = 0.05;
 constexpr double kOffFeed = 0.02;
@@ -24,6 +27,10 @@ constexpr double kJoint = 1e-4;
 
 double longest_row_mm(const Cutter& cutter) {
     return std::min(kLongestRow, kLongestOfDiameter * cutter.diameter_mm);
+}
+
+bool shares_sweep(const motion::Move& move, const Cutter& cutter) {
+    return row_way_mm(move, cutter) <= kLongestPart * cutter.radius_mm();
 }
 
 double row_way_mm(const motion::Move& move, const Cutter& cutter) {

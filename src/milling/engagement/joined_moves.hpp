@@ -19,6 +19,9 @@ double row_way_mm(const motion::Move& move, const Cutter& cutter);
 // Returns the number of rows of this length.
 double rows_of(double way_mm, const Cutter& cutter);
 
+// Returns true for a short move: if it joins a pass, its sweep and that of the move before it are one shape.
+bool shares_sweep(const motion::Move& move, const Cutter& cutter);
+
 // Decides, move by move, if a move forms one pass with the move before it. The result depends on the program
 // alone, not on the number of moves that are milled at once. One thread.
 class JoinedMoves {

@@ -71,9 +71,11 @@ struct Machining::Cylinder {
 // One step of the current run.
 struct Machining::Sweep {
     Step step;
-    const field::Shape* shape = nullptr;       // of the whole pass; null for a dwell
-    Box3 bounds_mm;                            // of the shape
-    std::vector<field::PendingShape> earlier;  // passes of this run that may have cut here before
+    const field::Shape* shape = nullptr;  // null for a dwell
+    bool owns_shape = false;              // false: the shape of the step before is its shape, too
+    Box3 bounds_mm;                       // of the shape
+    // Of the first step of a pass: shapes of this run that may have cut here before the pass.
+    std::vector<field::PendingShape> earlier;
     double from = 0, to = 1;                   // fractions of the pass that it belongs to
     double contact = 0;                        // of a rapid: fraction at which it first meets stock
     std::vector<Collision> collisions;
@@ -115,6 +117,12 @@ Machining::~Machining() = default;
 std::size_t Machining::pass_end(std::size_t first) const {
     std::size_t end = first + 1;
     while (end < sweeps_.size() && sweeps_[end].step.joins) ++end;
+    return end;
+}
+
+std::size_t Machining::shape_end(std::size_t first) const {
+    std::size_t end = first + 1;
+    while (end < sweeps_.size() && sweeps_[end].shape == sweeps_[first].shape) ++end;
     return end;
 }
 
@@ -328,19 +336,18 @@ void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
         sweep.collisions.push_back(best);
     };
     for (const auto& fixture : fixtures_) {
-        if (sweep.step.joins) break;  // the shape is that of the whole pass
+        if (!sweep.owns_shape) break;
         if (const auto place = field::shared_place(*sweep.shape, *fixture, kClearance))
-            report(CollisionKind::tool_in_fixture, *place, pass_end(number));
+            report(CollisionKind::tool_in_fixture, *place, shape_end(number));
     }
     for (const Cylinder& part : bodies_[sweep.step.cutter]) {
         const auto solid = make_sweep(part.solid, raised(move, part.height_mm));
-        // The shank follows the cutter: the volume that this pass and those before it remove is not an
+        // The shank follows the cutter: the volume that this shape and those before it remove is not an
         // obstacle.
         std::vector<field::PendingShape> gone;
         const Box3 reach = solid->bounds_mm();
         for (std::size_t n = 0; n <= number; ++n) {
-            const bool own = sweeps_[n].shape && !sweeps_[n].step.joins;
-            if (own && sweeps_[n].bounds_mm.overlaps(reach))
+            if (sweeps_[n].owns_shape && sweeps_[n].bounds_mm.overlaps(reach))
                 gone.push_back({sweeps_[n].shape, sweeps_[n].bounds_mm});
         }
         if (const auto place = field::CarvedView(stock_, gone).overlap(*solid, kClearance))
@@ -353,25 +360,37 @@ void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
 }
 
 bool Machining::add_sweeps(std::span<const Step> pass) {
-    Sweep sweep;
-    if (pass.front().move->kind != motion::MoveKind::dwell) {
+    const std::size_t begin = sweeps_.size(), first_shape = shapes_.size();
+    const Cutter& cutter = cutters_[pass.front().cutter];
+    Box3 bounds;
+    for (std::size_t n = 0, end; n < pass.size(); n = end) {
         std::vector<const motion::Move*> moves;
-        for (const Step& step : pass) moves.push_back(step.move);
-        auto shape = make_sweep(cutters_[pass.front().cutter], moves);
-        sweep.shape = shape.get();
-        sweep.bounds_mm = shape->bounds_mm().inflated(kMargin);
-        for (std::size_t n = 0; n < sweeps_.size(); ++n) {
-            const Sweep& other = sweeps_[n];
-            if (other.step.joins || !other.shape || !other.bounds_mm.overlaps(sweep.bounds_mm)) continue;
-            if (sweep.earlier.size() == kMostPending) return false;
-            sweep.earlier.push_back({other.shape, other.bounds_mm});
+        for (end = n; end == n || (end < pass.size() && shares_sweep(*pass[end].move, cutter)); ++end)
+            moves.push_back(pass[end].move);
+        Sweep sweep;
+        sweep.owns_shape = moves.front()->kind != motion::MoveKind::dwell;
+        if (sweep.owns_shape) {
+            shapes_.push_back(make_sweep(cutter, moves));
+            sweep.shape = shapes_.back().get();
+            sweep.bounds_mm = sweep.shape->bounds_mm().inflated(kMargin);
+            bounds.include(sweep.bounds_mm);
         }
-        shapes_.push_back(std::move(shape));
+        for (; n < end; ++n) {
+            sweep.step = pass[n];
+            sweeps_.push_back(sweep);
+            sweep.owns_shape = false;
+        }
     }
-    for (const Step& step : pass) {
-        sweep.step = step;
-        sweeps_.push_back(sweep);
-        sweep.earlier.clear();  // the rows of a pass are measured with its first step
+    Sweep& first = sweeps_[begin];  // the rows of a pass are measured with its first step
+    for (std::size_t n = 0; n < begin; ++n) {
+        const Sweep& other = sweeps_[n];
+        if (!other.owns_shape || !other.bounds_mm.overlaps(bounds)) continue;
+        if (first.earlier.size() == kMostPending) {
+            sweeps_.resize(begin);
+            shapes_.resize(first_shape);
+            return false;
+        }
+        first.earlier.push_back({other.shape, other.bounds_mm});
     }
     return true;
 }
@@ -408,7 +427,7 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     for (std::size_t n = 0; n < count; ++n) {
         const Sweep& sweep = sweeps_[n];
         if (!sweep.shape) continue;
-        if (!sweep.step.joins) out.removed_mm3[n] = removed_[shape++];
+        if (sweep.owns_shape) out.removed_mm3[n] = removed_[shape++];
         if (sweep.is_rapid() && !sweep.step.move->is_place() && out.removed_mm3[n] > kBrush) {
             out.collisions.push_back({n, CollisionKind::rapid_through_stock, sweep.contact,
                                       motion::pose_at(*sweep.step.move, sweep.contact).tip_mm});

@@ -36,7 +36,7 @@ struct Machined {
     std::vector<CutRow> rows;
     std::size_t row_count = 0;
     std::vector<Collision> collisions;
-    // By step. The volume of a pass stands at its first step.
+    // By step. Steps that share a sweep have their volume at the first of them.
     std::vector<double> removed_mm3;
 };
 
@@ -62,11 +62,13 @@ class Machining {
   private:
     struct Cylinder;
     struct Sweep;
-    // Adds the steps of one pass. Returns false if too many earlier passes of this run overlap its sweep.
+    // Adds the steps of one pass, or none of them: returns false if too many earlier shapes of this run
+    // overlap its own.
     bool add_sweeps(std::span<const Step> pass);
     // Ends the pass that begins with this sweep and contains all sweeps up to the last one.
     void add_pass(std::size_t first, Machined& out);
     std::size_t pass_end(std::size_t first) const;
+    std::size_t shape_end(std::size_t first) const;
     // Pose and length on the pass that begins with the sweep `pass`.
     motion::ToolPose pose_at(std::size_t pass, double at) const;
     double length_mm(std::size_t pass, double to) const;

@@ -234,6 +234,7 @@ class StraightsSweep final : public field::Shape {
         Vec3 along;              // unit; zero if the path does not advance all along the line
         std::vector<double> at;  // of each tip, along the line
         double off_mm = 0;       // largest distance of the path from the line
+        double parts_per_mm = 0;
 
         Chord() = default;
         explicit Chord(const std::vector<Vec3>& tips) : along(normalized(tips.back(), {0, 0, 0})) {
@@ -244,6 +245,7 @@ class StraightsSweep final : public field::Shape {
                 at.push_back(dot(tip, along));
                 off_mm = std::max(off_mm, length(tip - at.back() * along));
             }
+            if (at.back() > 0) parts_per_mm = static_cast<double>(tips.size() - 1) / at.back();
         }
     };
     struct Nearest {
@@ -265,20 +267,20 @@ class StraightsSweep final : public field::Shape {
         const bool by_sphere = tool_.kind == CutterKind::ball && q.z - tool_.radius_mm <= lowest_mm_;
         const Chord& chord = by_sphere ? direct_ : level_;
         const Vec3 from_path{q.x, q.y, by_sphere ? q.z - tool_.radius_mm : 0};
-        const double at = dot(from_path, chord.along);
-        const double aside = std::max(length(from_path - at * chord.along) - chord.off_mm, 0.0);
+        const double at = dot(from_path, chord.along), aside_squared = squared_length(from_path) - at * at;
         // True if nothing that is at least `way` away along the line can come below the least.
         const auto too_far = [&](double way) {
-            const double reach = tool_.radius_mm + least.distance, ahead = std::max(way, 0.0);
-            return reach <= 0 || ahead * ahead + aside * aside >= reach * reach;
+            const double reach = tool_.radius_mm + least.distance, far = reach + chord.off_mm;
+            const double ahead = std::max(way, 0.0);
+            return reach <= 0 || ahead * ahead + aside_squared >= far * far;
         };
-        if (too_far(std::max(chord.at.front() - at, at - chord.at.back()))) return least;
+        if (too_far(std::max(-at, at - chord.at.back()))) return least;
         const auto look = [&](std::size_t n) {
             const double d = straight_distance(tool_, parts_[n].line, seen(parts_[n], q), least.distance);
             if (d < least.distance) least = {d, n};
         };
-        const double share = chord.at.back() > 0 ? std::clamp(at / chord.at.back(), 0.0, 1.0) : 0;
-        const auto first = static_cast<std::size_t>(share * (static_cast<double>(parts_.size()) - 1));
+        const auto first = static_cast<std::size_t>(
+            std::clamp(at * chord.parts_per_mm, 0.0, static_cast<double>(parts_.size() - 1)));
         for (std::size_t n = first; n < parts_.size() && !too_far(chord.at[n] - at); ++n) look(n);
         for (std::size_t n = first; n-- > 0 && !too_far(at - chord.at[n + 1]);) look(n);
         return least;

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "base/hash.hpp"
+#include "milling/engagement/joined_moves.hpp"
 #include "milling/sweep/sweep.hpp"
 #include "motion/path/path.hpp"
 #include "session/cut/mill_session.hpp"
@@ -127,11 +128,15 @@ bool carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier,
     std::array<double, kCarvedAtOnce> removed_mm3;
     for (const EarlierCuts& cuts : earlier) {
         for (std::size_t n = 0, end; n < cuts.moves.size(); n = end) {
-            std::vector<const motion::Move*> pass;
-            for (end = n; end == n || (end < cuts.joins.size() && cuts.joins[end]); ++end)
-                pass.push_back(&cuts.moves[end]);
-            shapes.push_back(milling::make_sweep(cuts.cutters[cuts.cutter_of_move[n]], pass));
-            done += pass.size();
+            std::vector<const motion::Move*> moves;
+            const milling::Cutter& cutter = cuts.cutters[cuts.cutter_of_move[n]];
+            const auto goes_on = [&](std::size_t at) {
+                return at < cuts.joins.size() && cuts.joins[at] &&
+                       milling::shares_sweep(cuts.moves[at], cutter);
+            };
+            for (end = n; end == n || goes_on(end); ++end) moves.push_back(&cuts.moves[end]);
+            shapes.push_back(milling::make_sweep(cutter, moves));
+            done += moves.size();
             if (done < all && shapes.size() < kCarvedAtOnce) continue;
             stock.carve(shapes, std::span(removed_mm3).first(shapes.size()));
             shapes.clear();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "field/carved/carved_field.hpp"
+#include "milling/engagement/joined_moves.hpp"
 #include "milling/tool/convex_zones.hpp"
 #include "motion/path/path.hpp"
 #include "session/cut/kept_states.hpp"
@@ -203,11 +204,16 @@ double steps_of(const motion::Move& move, const milling::Cutter& cutter, double 
     return std::floor(travel_mm(move, cutter) / (0.5 * edge)) + 1;
 }
 
-// Number of straight moves that share a sweep with the move before them.
-double joined_parts(std::span<const motion::Move> moves, std::span<const char> joins) {
+// Number of straight moves that share a sweep with the move before them. `cuts`: a setup or earlier cuts.
+template <class Cuts>
+double joined_parts(const Cuts& cuts, std::span<const char> joins) {
     double count = 0;
-    for (std::size_t n = 0; n < joins.size(); ++n)
-        count += joins[n] && !moves[n].quadratic && moves[n].start.axis == moves[n].end.axis ? 1 : 0;
+    for (std::size_t n = 0; n < joins.size(); ++n) {
+        const motion::Move& move = cuts.moves[n];
+        const bool straight = !move.quadratic && move.start.axis == move.end.axis;
+        if (joins[n] && straight && milling::shares_sweep(move, cuts.cutters[cuts.cutter_of_move[n]]))
+            ++count;
+    }
     return count;
 }
 
@@ -268,8 +274,8 @@ MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
         travelled = 0;
         last_cutter = &cutter;
     });
-    joined_parts_ = joined_parts(setup.moves, joins_of(setup));
-    for (const EarlierCuts& cuts : setup.earlier) joined_parts_ += joined_parts(cuts.moves, cuts.joins);
+    joined_parts_ = joined_parts(setup, joins_of(setup));
+    for (const EarlierCuts& cuts : setup.earlier) joined_parts_ += joined_parts(cuts, cuts.joins);
     surface_cells_ = stock.most_surface_cells();
     touched_cells_ = stock.touched_cells();
 }

@@ -117,9 +117,11 @@ class MillSession::Run {
             std::ranges::lower_bound(moves.begin(), end, t_s, {}, &motion::MoveTiming::start_s) -
             moves.begin());
     }
-    // True if the move begins a piece of the stock's surface: one sweep of one pass.
+    // True if the move begins a piece of the stock's surface.
     bool begins_piece(std::size_t move) const {
-        return setup_.moves[move].kind != motion::MoveKind::dwell && !joins_[move];
+        const milling::Cutter& cutter = setup_.cutters[setup_.cutter_of_move[move]];
+        return setup_.moves[move].kind != motion::MoveKind::dwell &&
+               !(joins_[move] && milling::shares_sweep(setup_.moves[move], cutter));
     }
 
     void restore(std::size_t moves) {

@@ -70,8 +70,7 @@ struct MillSetup {
 // Never null. motion::schedule() must accept the moves.
 std::shared_ptr<const motion::Schedule> schedule_of(const MillSetup& setup);
 
-// For each move: true if it forms one pass with the move before it (milling::JoinedMoves). A pass shares rows
-// and is one piece of the stock's surface.
+// For each move: true if it forms one pass with the move before it (milling::JoinedMoves).
 std::vector<char> joins_of(const MillSetup& setup);
 
 struct MillSinks {
