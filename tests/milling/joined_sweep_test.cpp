@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "milling/sweep/sweep.hpp"
+#include "milling/sweep/sweep_frames.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
 #include "motion/path/program.hpp"
 
@@ -199,6 +200,41 @@ TEST(JoinedSweep, has_the_same_bits_on_every_processor) {
             sweep_kernels_v3()->straights(ToolProfile(cutter), parts, frame, {}, lattice, 0.36, b.data());
             ASSERT_EQ(a, b);
         }
+    }
+}
+
+// A curved sweep that is asked only for what is nearer than another one, and its bound from the middle: the
+// same bits from both builds, and bounds that hold.
+RC_GTEST_PROP(JoinedSweep, of_turning_axes_has_the_same_bits_on_every_processor, ()) {
+    if (!sweep_kernels_v3()) RC_DISCARD("no x86-64-v3 here");
+    const Chain chain = any_chain(any_number(0, 0.1), any_number(0.001, 0.05));
+    const ToolProfile tool(chain.cutter);
+    const double cell = any_number(0.02, 0.4) * chain.cutter.radius_mm(), near = 1.8 * cell;
+    const field::Lattice lattice{chain.any_point(), cell};
+    std::array<float, field::kLatticeNodes> known, a, b;
+    chain.single.front()->sample_near(lattice, near, known.data());
+    for (const Move& move : chain.moves) {
+        const CurvedLine line = curved_line(move);
+        const CurvedInstants instants(line);
+        sweep_kernels_sse2()->curved(tool, line, instants, move.start.tip_mm, lattice, near, known.data(),
+                                     a.data());
+        sweep_kernels_v3()->curved(tool, line, instants, move.start.tip_mm, lattice, near, known.data(),
+                                   b.data());
+        RC_ASSERT(a == b);
+    }
+    TravelMiddles travels{};
+    for (std::size_t n = 0; n < TravelMiddles::kCount; ++n) {
+        const Move& move = chain.moves[n % chain.moves.size()];
+        travels.put(static_cast<int>(n), curved_line(move), move.start.tip_mm - chain.moves[0].start.tip_mm);
+    }
+    for (int n = 0; n < 20; ++n) {
+        const Vec3 p = chain.any_point(), from_start = p - chain.moves[0].start.tip_mm;
+        std::array<float, TravelMiddles::kCount> low, same;
+        sweep_kernels_sse2()->lower_bounds(tool, travels, from_start, low.data());
+        sweep_kernels_v3()->lower_bounds(tool, travels, from_start, same.data());
+        RC_ASSERT(low == same);
+        for (std::size_t k = 0; k < low.size(); ++k)
+            RC_ASSERT(static_cast<double>(low[k]) <= chain.single[k % chain.single.size()]->distance_mm(p));
     }
 }
 

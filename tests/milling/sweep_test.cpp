@@ -294,8 +294,8 @@ RC_GTEST_PROP(Sweep, kernels_for_old_and_new_processors_give_the_same_bits, ()) 
     sweep_kernels_v3()->arc(tool, arc, frame, from, lattice, b);
     RC_ASSERT(same());
     const CurvedLine curve{vector(2), 0.1 * vector(1), z, 0.1 * vector(1), 0.01 * vector(1)};
-    sweep_kernels_sse2()->curved(tool, curve, CurvedInstants(curve), from, lattice, 1e30, a);
-    sweep_kernels_v3()->curved(tool, curve, CurvedInstants(curve), from, lattice, 1e30, b);
+    sweep_kernels_sse2()->curved(tool, curve, CurvedInstants(curve), from, lattice, 1e30, nullptr, a);
+    sweep_kernels_v3()->curved(tool, curve, CurvedInstants(curve), from, lattice, 1e30, nullptr, b);
     RC_ASSERT(same());
 }
 

@@ -76,8 +76,8 @@ struct Machining::Sweep {
     Box3 bounds_mm;                       // of the shape
     // Of the first step of a pass: shapes of this run that may have cut here before the pass.
     std::vector<field::PendingShape> earlier;
-    double from = 0, to = 1;                   // fractions of the pass that it belongs to
-    double contact = 0;                        // of a rapid: fraction at which it first meets stock
+    double from = 0, to = 1;  // fractions of the pass that it belongs to
+    double contact = 0;       // of a rapid: fraction at which it first meets stock
     std::vector<Collision> collisions;
 
     bool is_rapid() const { return step.move->kind == motion::MoveKind::rapid; }

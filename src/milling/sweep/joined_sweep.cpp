@@ -13,64 +13,69 @@ constexpr double kFarMm = 1e30;
 // At an edge a mitred distance is at most the square root of 2 shorter than the distance.
 constexpr double kMitre = 1.4143;
 
-class JoinedSweep final : public field::Shape {
-  public:
-    explicit JoinedSweep(std::vector<std::unique_ptr<const field::Shape>> parts) : parts_(std::move(parts)) {
-        for (const auto& part : parts_) box_.include(part->bounds_mm());
-    }
-
-    Box3 bounds_mm() const override { return box_; }
-    double distance_mm(Vec3 point) const override { return distance_below(point, kFarMm); }
-    double distance_below(Vec3 point, double bound) const override { return least(point, bound).distance; }
-    bool is_searched() const override {
-        return std::ranges::any_of(parts_, [](const auto& part) { return part->is_searched(); });
-    }
-    Vec3 gradient(Vec3 point) const override { return nearest(point).gradient(point); }
-    Slope slope(Vec3 point) const override { return nearest(point).slope(point); }
-
-    void sample(const field::Lattice& lattice, float* out) const override {
-        sample_near(lattice, kFarMm, out);
-    }
-
-    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        constexpr int kLast = field::kLatticeEdge - 1;
-        const Box3 nodes =
-            Box3{lattice.node(0, 0, 0), lattice.node(kLast, kLast, kLast)}.inflated(kMitre * near_mm);
-        std::fill_n(out, field::kLatticeNodes, static_cast<float>(2 * near_mm));
-        std::array<float, field::kLatticeNodes> one;
-        for (const auto& part : parts_) {
-            if (!part->bounds_mm().overlaps(nodes)) continue;
-            part->sample_near(lattice, near_mm, one.data());
-            for (std::size_t n = 0; n < one.size(); ++n) out[n] = std::min(out[n], one[n]);
-        }
-    }
-
-  private:
-    struct Least {
-        double distance;
-        std::size_t part;
-    };
-    Least least(Vec3 point, double bound) const {
-        Least least{bound, 0};
-        const double reach = kMitre * std::max(bound, 0.0);
-        if (!box_.inflated(reach).contains(point)) return least;
-        for (std::size_t n = 0; n < parts_.size(); ++n) {
-            const double d = parts_[n]->distance_below(point, least.distance);
-            if (d < least.distance) least = {d, n};
-        }
-        return least;
-    }
-    const field::Shape& nearest(Vec3 point) const { return *parts_[least(point, kFarMm).part]; }
-
-    std::vector<std::unique_ptr<const field::Shape>> parts_;
-    Box3 box_;
-};
-
 }  // namespace
 
-std::unique_ptr<field::Shape> join_sweeps(std::vector<std::unique_ptr<const field::Shape>> sweeps) {
-    assert(!sweeps.empty());
-    return std::make_unique<JoinedSweep>(std::move(sweeps));
+JoinedSweep::JoinedSweep(std::vector<std::unique_ptr<const field::Shape>> parts) : parts_(std::move(parts)) {
+    assert(!parts_.empty());
+    for (const auto& part : parts_) box_.include(part->bounds_mm());
+}
+
+double JoinedSweep::distance_mm(Vec3 point) const {
+    return least(point, kFarMm).distance;
+}
+
+double JoinedSweep::distance_below(Vec3 point, double bound) const {
+    return least(point, bound).distance;
+}
+
+bool JoinedSweep::is_searched() const {
+    return std::ranges::any_of(parts_, [](const auto& part) { return part->is_searched(); });
+}
+
+Vec3 JoinedSweep::gradient(Vec3 point) const {
+    return parts_[least(point, kFarMm).part]->gradient(point);
+}
+
+field::Shape::Slope JoinedSweep::slope(Vec3 point) const {
+    return parts_[least(point, kFarMm).part]->slope(point);
+}
+
+void JoinedSweep::sample(const field::Lattice& lattice, float* out) const {
+    sample_near(lattice, kFarMm, out);
+}
+
+void JoinedSweep::sample_near(const field::Lattice& lattice, double near_mm, float* out) const {
+    constexpr int kLast = field::kLatticeEdge - 1;
+    const Box3 nodes =
+        Box3{lattice.node(0, 0, 0), lattice.node(kLast, kLast, kLast)}.inflated(kMitre * near_mm);
+    std::fill_n(out, field::kLatticeNodes, static_cast<float>(2 * near_mm));
+    std::array<float, field::kLatticeNodes> one;
+    const std::size_t likely = likely_part(nodes.centre());
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+        const std::size_t part = n == 0 ? likely : n <= likely ? n - 1 : n;
+        if (!parts_[part]->bounds_mm().overlaps(nodes)) continue;
+        sample_part(part, lattice, near_mm, out, one.data());
+        for (std::size_t n = 0; n < one.size(); ++n) out[n] = std::min(out[n], one[n]);
+    }
+}
+
+void JoinedSweep::sample_part(std::size_t part, const field::Lattice& lattice, double near_mm,
+                              const float* /*known*/, float* out) const {
+    parts_[part]->sample_near(lattice, near_mm, out);
+}
+
+JoinedSweep::Least JoinedSweep::least(Vec3 point, double bound) const {
+    const double reach = kMitre * std::max(bound, 0.0);
+    if (!box_.inflated(reach).contains(point)) return {bound, 0};
+    return nearest_part(point, {bound, 0});
+}
+
+JoinedSweep::Least JoinedSweep::nearest_part(Vec3 point, Least least) const {
+    for (std::size_t n = 0; n < parts_.size(); ++n) {
+        const double d = parts_[n]->distance_below(point, least.distance);
+        if (d < least.distance) least = {d, n};
+    }
+    return least;
 }
 
 }  // namespace tribo::milling

@@ -9,7 +9,40 @@
 
 namespace tribo::milling {
 
-// Returns the union of sweeps of any kind, at least one.
-std::unique_ptr<field::Shape> join_sweeps(std::vector<std::unique_ptr<const field::Shape>> sweeps);
+// The union of sweeps of any kind, at least one.
+class JoinedSweep : public field::Shape {
+  public:
+    explicit JoinedSweep(std::vector<std::unique_ptr<const field::Shape>> parts);
+
+    Box3 bounds_mm() const override { return box_; }
+    double distance_mm(Vec3 point_mm) const override;
+    double distance_below(Vec3 point_mm, double bound_mm) const override;
+    bool is_searched() const override;
+    Vec3 gradient(Vec3 point_mm) const override;
+    Slope slope(Vec3 point_mm) const override;
+    void sample(const field::Lattice& lattice, float* out) const override;
+    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override;
+
+  protected:
+    struct Least {
+        double distance;
+        std::size_t part;
+    };
+    // Returns the part that is nearest to a point in reach, if its distance is below the one of `least`, else
+    // `least`.
+    virtual Least nearest_part(Vec3 point_mm, Least least) const;
+    // Returns the part to begin with at a point.
+    virtual std::size_t likely_part(Vec3 /*point_mm*/) const { return 0; }
+    // Samples one part. It needs to be exact only where it is less than `known`.
+    virtual void sample_part(std::size_t part, const field::Lattice& lattice, double near_mm,
+                             const float* known, float* out) const;
+    const std::vector<std::unique_ptr<const field::Shape>>& parts() const { return parts_; }
+
+  private:
+    Least least(Vec3 point_mm, double bound_mm) const;
+
+    std::vector<std::unique_ptr<const field::Shape>> parts_;
+    Box3 box_;
+};
 
 }  // namespace tribo::milling

@@ -2,8 +2,10 @@
 #include "milling/sweep/sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -171,129 +173,6 @@ class StraightSweep final : public field::Shape {
     StraightFrame path_;
 };
 
-// Several straight travels with one axis, each from the end of the one before it.
-class StraightsSweep final : public field::Shape {
-  public:
-    StraightsSweep(const ToolProfile& tool, std::span<const motion::Move* const> moves)
-        : tool_(tool),
-          whole_(moves.front()->start.tip_mm, moves.back()->end.tip_mm - moves.front()->start.tip_mm,
-                 moves.front()->start.axis) {
-        std::vector<Vec3> tips{{}};
-        parts_.reserve(moves.size());
-        for (const motion::Move* move : moves) {
-            const StraightFrame own(move->start.tip_mm, move->end.tip_mm - move->start.tip_mm,
-                                    whole_.frame.z);
-            box_.include(own.box({tool_.radius_mm, tool_.length_mm}));
-            const double along_x = dot(own.frame.x, whole_.frame.x),
-                         along_y = dot(own.frame.x, whole_.frame.y);
-            parts_.push_back({whole_.frame.into(own.start - whole_.start), along_x, along_y, own.line});
-            tips.push_back(whole_.frame.into(move->end.tip_mm - whole_.start));
-            lowest_mm_ = std::min(lowest_mm_, tips.back().z);
-            highest_mm_ = std::max(highest_mm_, tips.back().z);
-        }
-        direct_ = Chord(tips);
-        for (Vec3& tip : tips) tip.z = 0;
-        level_ = Chord(tips);
-    }
-
-    Box3 bounds_mm() const override { return box_; }
-    double distance_mm(Vec3 point) const override { return distance_below(point, kNever); }
-    double distance_below(Vec3 point, double bound) const override {
-        return least(whole_.frame.into(point - whole_.start), bound).distance;
-    }
-
-    // At each instant the tool holds a piece of a line along its axis. If the path does not rise by more than
-    // the cylinder is long, all these pieces have a point in common.
-    bool is_whole_along(Vec3 direction) const override {
-        return highest_mm_ - lowest_mm_ <= tool_.length_mm - tool_.corner_mm &&
-               are_parallel(direction, whole_.frame.z);
-    }
-
-    Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
-
-    Slope slope(Vec3 point) const override {
-        const Vec3 q = whole_.frame.into(point - whole_.start);
-        const StraightPart& part = parts_[least(q, kNever).part];
-        const Frame& f = whole_.frame;
-        const Frame own{part.along_x * f.x + part.along_y * f.y, part.along_x * f.y - part.along_y * f.x,
-                        f.z};
-        return straight_slope(tool_, part.line, own, seen(part, q));
-    }
-
-    void sample(const field::Lattice& lattice, float* out) const override {
-        sample_near(lattice, kNever, out);
-    }
-
-    void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        sweep_kernels().straights(tool_, parts_, whole_.frame, whole_.start, lattice, near_mm, out);
-    }
-
-  private:
-    // A path of tips beside the straight line from its start to its end.
-    struct Chord {
-        Vec3 along;              // unit; zero if the path does not advance all along the line
-        std::vector<double> at;  // of each tip, along the line
-        double off_mm = 0;       // largest distance of the path from the line
-        double parts_per_mm = 0;
-
-        Chord() = default;
-        explicit Chord(const std::vector<Vec3>& tips) : along(normalized(tips.back(), {0, 0, 0})) {
-            for (std::size_t n = 1; n < tips.size(); ++n)
-                if (!(dot(tips[n] - tips[n - 1], along) > 0)) along = {};
-            at.reserve(tips.size());
-            for (const Vec3 tip : tips) {
-                at.push_back(dot(tip, along));
-                off_mm = std::max(off_mm, length(tip - at.back() * along));
-            }
-            if (at.back() > 0) parts_per_mm = static_cast<double>(tips.size() - 1) / at.back();
-        }
-    };
-    struct Nearest {
-        double distance;
-        std::size_t part;
-    };
-
-    static Vec3 seen(const StraightPart& part, Vec3 q) {
-        const auto v = PartOf<double>(part).view(q.x, q.y, q.z);
-        return {v.x, v.y, v.z};
-    }
-
-    // Returns the part with the least distance if that is below `bound`. `q` is in the common frame. The
-    // cylinder about the axis is as far as its path seen along the axis; the sphere of a ball is as far as
-    // the path of its centre. Both paths are near a line. Parts that are too far away along it are left out.
-    Nearest least(Vec3 q, double bound) const {
-        Nearest least{bound, 0};
-        if (lowest_mm_ - q.z >= bound) return least;
-        const bool by_sphere = tool_.kind == CutterKind::ball && q.z - tool_.radius_mm <= lowest_mm_;
-        const Chord& chord = by_sphere ? direct_ : level_;
-        const Vec3 from_path{q.x, q.y, by_sphere ? q.z - tool_.radius_mm : 0};
-        const double at = dot(from_path, chord.along), aside_squared = squared_length(from_path) - at * at;
-        // True if nothing that is at least `way` away along the line can come below the least.
-        const auto too_far = [&](double way) {
-            const double reach = tool_.radius_mm + least.distance, far = reach + chord.off_mm;
-            const double ahead = std::max(way, 0.0);
-            return reach <= 0 || ahead * ahead + aside_squared >= far * far;
-        };
-        if (too_far(std::max(-at, at - chord.at.back()))) return least;
-        const auto look = [&](std::size_t n) {
-            const double d = straight_distance(tool_, parts_[n].line, seen(parts_[n], q), least.distance);
-            if (d < least.distance) least = {d, n};
-        };
-        const auto first = static_cast<std::size_t>(
-            std::clamp(at * chord.parts_per_mm, 0.0, static_cast<double>(parts_.size() - 1)));
-        for (std::size_t n = first; n < parts_.size() && !too_far(chord.at[n] - at); ++n) look(n);
-        for (std::size_t n = first; n-- > 0 && !too_far(at - chord.at[n + 1]);) look(n);
-        return least;
-    }
-
-    ToolProfile tool_;
-    StraightFrame whole_;  // from the start to the end
-    std::vector<StraightPart> parts_;
-    Chord direct_, level_;                   // of the path itself, and of the path seen along the axis
-    double lowest_mm_ = 0, highest_mm_ = 0;  // of the tip, in the common frame
-    Box3 box_;
-};
-
 class ArcSweep final : public field::Shape {
   public:
     ArcSweep(const ToolProfile& tool, const motion::Move& move) : tool_(tool), path_(move) {}
@@ -362,6 +241,12 @@ class CurvedSweep final : public field::Shape {
                 if (least >= bound) return bound;
             }
         }
+        return searched_below(point, bound);
+    }
+
+    // The same, where no bound is expected to hold.
+    double searched_below(Vec3 point, double bound) const {
+        const Vec3 d = point - start_;
         if (const auto near = upright_nearest(d))
             return std::max(near->distance_mm, upright_->lowest_mm(d) - tool_.length_mm);
         Floors floors;
@@ -408,7 +293,12 @@ class CurvedSweep final : public field::Shape {
     }
 
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        sweep_kernels().curved(tool_, line_, instants_, start_, lattice, near_mm, out);
+        sample_below(lattice, near_mm, nullptr, out);
+    }
+
+    // Like sample_near(); with `known` exact only where the distance is less than that (sweep_kernels.hpp).
+    void sample_below(const field::Lattice& lattice, double near_mm, const float* known, float* out) const {
+        sweep_kernels().curved(tool_, line_, instants_, start_, lattice, near_mm, known, out);
     }
 
   private:
@@ -443,6 +333,13 @@ class CurvedSweep final : public field::Shape {
     std::optional<UprightCurve> upright_;
     Box3 box_;
 };
+
+#include "milling/sweep/sweep_joined.inl"
+
+// True for a straight move with one axis.
+bool is_straight(const motion::Move& move) {
+    return !move.arc && !move.quadratic && move.start.axis == move.end.axis;
+}
 
 // Returns the number of stretches. A stretch must be short enough that each part of the tool comes nearest at
 // most once over it. More stretches are cheap: a brick searches only the few that may hold its nearest
@@ -494,20 +391,33 @@ CurvedLine::CurvedLine(Vec3 tip_1, Vec3 tip_2, Vec3 axis_0, Vec3 axis_1, Vec3 ax
 }
 
 CurvedInstants::CurvedInstants(const CurvedLine& line) {
-    for (int k = 0; k < kCount; ++k) {
-        const double t = static_cast<double>(k) / (kCount - 1);
-        const Vec3 at = tip_at(line, t), velocity = line.tip1 + 2 * t * line.tip2;
-        const Vec3 raw = line.axis0 + t * (line.axis1 + t * line.axis2),
-                   turning = line.axis1 + 2 * t * line.axis2;
-        const double per = 1 / length(raw);
-        const Vec3 unit = per * raw, rate = per * (turning - dot(turning, unit) * unit);
-        for (int n = 0; n < 3; ++n) {
-            tip[n][k] = static_cast<float>(at[n]);
-            axis[n][k] = static_cast<float>(unit[n]);
-            tip_rate[n][k] = static_cast<float>(velocity[n]);
-            axis_rate[n][k] = static_cast<float>(rate[n]);
-        }
+    for (int k = 0; k < kCount; ++k) put(k, line, static_cast<double>(k) / (kCount - 1), {});
+}
+
+void CurvedInstants::put(int k, const CurvedLine& line, double t, Vec3 start) {
+    const Vec3 at = start + tip_at(line, t), velocity = line.tip1 + 2 * t * line.tip2;
+    const Vec3 raw = line.axis0 + t * (line.axis1 + t * line.axis2),
+               turning = line.axis1 + 2 * t * line.axis2;
+    const double per = 1 / length(raw);
+    const Vec3 unit = per * raw, rate = per * (turning - dot(turning, unit) * unit);
+    for (int n = 0; n < 3; ++n) {
+        tip[n][k] = static_cast<float>(at[n]);
+        axis[n][k] = static_cast<float>(unit[n]);
+        tip_rate[n][k] = static_cast<float>(velocity[n]);
+        axis_rate[n][k] = static_cast<float>(rate[n]);
     }
+}
+
+void TravelMiddles::put(int k, const CurvedLine& line, Vec3 start) {
+    const TravelBounds& b = line.bounds;
+    const Vec3 tip = start + b.middle;
+    at.put(k, line, 0.5, start);
+    for (int axis = 0; axis < 3; ++axis) middle[axis][k] = static_cast<float>(tip[axis]);
+    spread[k] = static_cast<float>(b.spread);
+    speed[k] = static_cast<float>(b.speed);
+    turn[k] = static_cast<float>(b.turn);
+    bend[k] = static_cast<float>(b.tip_bend + 2 * b.turn * b.speed);
+    bend_per_mm[k] = static_cast<float>(b.turn_rate + b.turn * b.turn);
 }
 
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Move& move) {
@@ -516,22 +426,25 @@ std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Mov
                                   move);
     const ToolProfile tool(cutter);
     if (move.arc) return std::make_unique<ArcSweep>(tool, move);
-    if (move.quadratic || move.start.axis != move.end.axis) return std::make_unique<CurvedSweep>(tool, move);
+    if (!is_straight(move)) return std::make_unique<CurvedSweep>(tool, move);
     return std::make_unique<StraightSweep>(tool, move.start.tip_mm, move.end.tip_mm - move.start.tip_mm,
                                            move.start.axis);
 }
 
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, std::span<const motion::Move* const> moves) {
     if (moves.size() == 1) return make_sweep(cutter, *moves.front());
-    const auto joins_straight = [&](const motion::Move* move) {
-        return !move->arc && !move->quadratic && move->start.axis == moves.front()->start.axis &&
-               move->end.axis == moves.front()->start.axis;
+    const bool is_profile = cutter.has_profile() || moves.size() > kMostParts;
+    const auto every = [&](const auto& holds) {
+        return !is_profile && std::ranges::all_of(moves, [&](const motion::Move* m) { return holds(*m); });
     };
-    if (!cutter.has_profile() && moves.size() <= kMostParts && std::ranges::all_of(moves, joins_straight))
+    const Vec3 axis = moves.front()->start.axis;
+    if (every([&](const motion::Move& m) { return is_straight(m) && m.start.axis == axis; }))
         return std::make_unique<StraightsSweep>(ToolProfile(cutter), moves);
     std::vector<std::unique_ptr<const field::Shape>> sweeps;
     for (const motion::Move* move : moves) sweeps.push_back(make_sweep(cutter, *move));
-    return join_sweeps(std::move(sweeps));
+    if (every([](const motion::Move& m) { return !m.arc && !is_straight(m); }))
+        return std::make_unique<CurvedsSweep>(ToolProfile(cutter), moves, std::move(sweeps));
+    return std::make_unique<JoinedSweep>(std::move(sweeps));
 }
 
 }  // namespace tribo::milling

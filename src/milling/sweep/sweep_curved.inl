@@ -53,13 +53,29 @@ struct Views {
     }
 };
 
+// Rounding error of a distance in single precision, per mm from the tip.
+constexpr float kRounding = 1e-6f;
+
+// Returns lower bounds of the distances to eight travels, each from its middle alone.
+template <CutterKind kind>
+TRIBO_LANES F8 bounds_from_middles(const Profile<F8>& p, const TravelMiddles& m, const float (&point)[3]) {
+    F8 away = splat(0.0f);
+    for (int k = 0; k < 3; ++k) {
+        const F8 d = splat(point[k]) - load(m.middle[k]);
+        away += d * d;
+    }
+    const F8 reach = sqrt(away) + load(m.spread), speed = load(m.speed) + load(m.turn) * reach;
+    const F8 bend = load(m.bend) + load(m.bend_per_mm) * reach;
+    const Instant<F8> middle = Views(m.at, point).instants<kind>(p);
+    const F8 rounding = splat(kRounding) * reach * (splat(1.0f) + speed / p.R);
+    return middle.distance - splat(0.5f) * abs(middle.slope) - splat(0.125f) * bend - rounding;
+}
+
 // Fills Floors for one point: eight instants at once.
 template <CutterKind kind>
 TRIBO_LANES void curved_floors(const Profile<F8>& p, const CurvedInstants& c, const TravelBounds& travel,
                                const float (&point)[3], Floors& out) {
     constexpr bool kEdge = kind == CutterKind::flat;
-    // Rounding error of single precision, per mm from the tip.
-    constexpr float kRounding = 1e-6f;
     const F8 width = splat(1.0f / (CurvedInstants::kCount - 1));
     const Views v(c, point);
     const PointBounds<F8> bounds =
@@ -192,13 +208,13 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
     };
     const auto is_open = [&](double floor) { return floor < least.distance - kSettled<double>; };
     // Single precision is accurate enough for the distance at an end that cannot be the nearest instant.
-    const auto look_through = [&](Stretch<double> s, bool lo_is_exact, bool hi_is_exact)
-                                  __attribute__((noinline)) {
-                                      if (!is_open(floor_of<kEdge>(s, bounds))) return;
-                                      if (!lo_is_exact && is_open(s.a.distance)) s.a = exact(s.lo);
-                                      if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
-                                      search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, kNever, least, at);
-                                  };
+    const auto look_through = [&](Stretch<double> s, bool lo_is_exact,
+                                  bool hi_is_exact) __attribute__((noinline)) {
+        if (!is_open(floor_of<kEdge>(s, bounds))) return;
+        if (!lo_is_exact && is_open(s.a.distance)) s.a = exact(s.lo);
+        if (!hi_is_exact && is_open(s.b.distance)) s.b = exact(s.hi);
+        search<kEdge>(s, floor_of<kEdge>(s, bounds), bounds, Needed<double>(kNever), least, at);
+    };
     unsigned open = (1u << kStretches) - 1;  // one bit per stretch that was not searched yet
     while (true) {
         int k = -1;
@@ -255,7 +271,7 @@ struct SeenAxes {
 struct SeenFrame {
     static constexpr int kDegree = 5, kCoefficients = 3 * (kDegree + 1), kMostStretches = 8;
     // First the coefficients. From kNodes on: x, y, z and their derivatives at every node from the first to
-    // the last.
+    // the last; if there is one stretch, also at its middle.
     static constexpr int kNodes = 24, kEntries = 80;
     static_assert(kNodes >= kCoefficients && kEntries >= kNodes + 6 * (kMostStretches + 1));
     static_assert(kNodes % kLatticeEdge == 0 && kEntries % kLatticeEdge == 0);
@@ -302,8 +318,7 @@ struct SeenFrame {
         for (int k = 0; k < 3; ++k) {
             for (int i = 0; i <= kDegree; ++i) put(3 * i + k, table[i][k]);
         }
-        for (int n = first; n <= last; ++n) {
-            const double t = static_cast<double>(n) / stretches;
+        const auto put_instant = [&](int entry, double t) {
             const SeenAxes axes(line, t);
             for (int k = 0; k < 3; ++k) {
                 Row value = table[kDegree][k], rate{{}, 0};
@@ -312,10 +327,12 @@ struct SeenFrame {
                     rate = {h * rate.axis + value.axis, h * rate.constant + value.constant};
                     value = {h * value.axis + table[i][k].axis, h * value.constant + table[i][k].constant};
                 }
-                put(node(n) + k, axes.rows[k]);
-                put(node(n) + 3 + k, rate);
+                put(entry + k, axes.rows[k]);
+                put(entry + 3 + k, rate);
             }
-        }
+        };
+        for (int n = first; n <= last; ++n) put_instant(node(n), static_cast<double>(n) / stretches);
+        if (stretches == 1) put_instant(node(last + 1), 0.5);
     }
     int node(int n) const { return kNodes + 6 * (n - first); }
 };
@@ -327,9 +344,7 @@ struct SeenRow {
     float at_zero[SeenFrame::kEntries];
 
     TRIBO_LANES SeenRow(const SeenFrame& f, F8 px, float py, float pz)
-        : frame(f), x(px), y(splat(py)), z(splat(pz)) {
-        fill(SeenFrame::kNodes, f.node(f.last + 1));
-    }
+        : frame(f), x(px), y(splat(py)), z(splat(pz)) {}
     TRIBO_LANES void fill(int first, int end) {
         for (int i = first; i < end; i += kLatticeEdge) {
             store(at_zero + i,
@@ -339,8 +354,27 @@ struct SeenRow {
     TRIBO_LANES F8 entry(int i) const { return splat(at_zero[i]) + x * splat(frame.by_x[i]); }
 };
 
+// Returns lower bounds of the distances of a row from the middle of the travel alone.
 template <CutterKind kind>
-TRIBO_LANES F8 curved_row(const Profile<F8>& p, SeenRow& row, const PointBounds<F8>& bounds, F8 near) {
+TRIBO_LANES F8 row_bound(const Profile<F8>& p, const SeenFrame& frame, F8 x, float y, float z,
+                         const PointBounds<F8>& bounds) {
+    const int first = frame.node(frame.last + 1);
+    F8 seen[6];
+    for (int k = 0; k < 6; ++k) {
+        const int i = first + k;
+        seen[k] = splat(frame.constant[i] + z * frame.by_z[i] + y * frame.by_y[i]) + x * splat(frame.by_x[i]);
+    }
+    const Instant<F8> middle =
+        instant<kind>(p, seen[0] * seen[0] + seen[1] * seen[1], seen[0] * seen[3] + seen[1] * seen[4],
+                      seen[2], seen[5], seen[3] * seen[3] + seen[4] * seen[4]);
+    return middle.distance - splat(0.5f) * abs(middle.slope) - splat(0.125f) * bounds.bend -
+           broadcast<F8>(kProven<F8>);
+}
+
+template <CutterKind kind>
+TRIBO_LANES F8 curved_row(const Profile<F8>& p, SeenRow& row, const PointBounds<F8>& bounds,
+                          const Needed<F8>& needed) {
+    row.fill(SeenFrame::kNodes, row.frame.node(row.frame.last + 1));
     F8 lowest = broadcast<F8>(kNever);
     const auto seen = [&](const F8(&value)[3], const F8(&rate)[3]) {
         return instant<kind>(p, value[0] * value[0] + value[1] * value[1],
@@ -379,6 +413,6 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, SeenRow& row, const PointBounds<
     const F8 distance =
         least_over < kind ==
         CutterKind::flat >
-            (row.frame.stretches, row.frame.first, row.frame.last, bounds, near, node, at).distance;
+            (row.frame.stretches, row.frame.first, row.frame.last, bounds, needed, node, at).distance;
     return max(distance, lowest - p.L);
 }

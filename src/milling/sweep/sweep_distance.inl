@@ -177,7 +177,8 @@ TRIBO_LANES Least<T> ramp_bull(const Profile<T>& p, const Line<T>& l, T x, T y, 
                                          l.across * l.across);
     };
     const auto node = [&](int k) { return at(broadcast<T>(k)); };
-    return least_over<false, T>(1, 0, 1, PointBounds<T>{zero, zero, zero, p.R, zero}, near, node, at);
+    return least_over<false, T>(1, 0, 1, PointBounds<T>{zero, zero, zero, p.R, zero}, Needed<T>(near), node,
+                                at);
 }
 
 // Travel along and across the axis at once: returns the nearest instant, without the flat top. For a

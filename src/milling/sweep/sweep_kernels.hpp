@@ -34,11 +34,15 @@ struct SweepKernels {
                       const field::Lattice&, double near_mm, float* out);
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
-    // The same accuracy.
+    // The same accuracy. With `known`, the distances of another sweep at the nodes, exact only where it is
+    // less than these: the lesser of both is the distance of the two together.
     void (*curved)(const ToolProfile&, const CurvedLine&, const CurvedInstants&, Vec3 reference,
-                   const field::Lattice&, double near_mm, float* out);
+                   const field::Lattice&, double near_mm, const float* known, float* out);
     // `point` is relative to the tip at the start.
     void (*floors)(const ToolProfile&, const CurvedInstants&, const TravelBounds&, Vec3 point, Floors& out);
+    // Writes a lower bound of the distance to each of eight sweeps, without their flat tops. `point` is
+    // relative to the same point as they are.
+    void (*lower_bounds)(const ToolProfile&, const TravelMiddles&, Vec3 point, float* out);
 };
 
 const SweepKernels& sweep_kernels();

@@ -51,16 +51,18 @@ struct FarRows {
         : near(broadcast<F8>(near_mm)), step(broadcast<F8>(cell_mm + 2 * kProven<F8>)) {}
 
     // Returns true if row b of layer c is far, and fills it. `out` has all rows before it.
-    TRIBO_LANES bool fills(int b, int c, float* out) const {
-        return (b > 0 && fills(load(out - kLatticeEdge), out)) ||
-               (c > 0 && fills(load(out - kLatticeEdge * kLatticeEdge), out));
+    TRIBO_LANES bool fills(int b, int c, float* out) const { return fills(b, c, out, near); }
+    // The same for distances that are needed below `limit` only.
+    TRIBO_LANES bool fills(int b, int c, float* out, F8 limit) const {
+        return (b > 0 && fills(load(out - kLatticeEdge), out, limit)) ||
+               (c > 0 && fills(load(out - kLatticeEdge * kLatticeEdge), out, limit));
     }
 
   private:
-    TRIBO_LANES bool fills(F8 beside, float* out) const {
+    TRIBO_LANES bool fills(F8 beside, float* out, F8 limit) const {
         const F8 above = beside - step, below = beside + step;
-        if (any(both(above<near, below> - near))) return false;
-        store(out, select(above >= near, above, below));
+        if (any(both(above<limit, below> - near))) return false;
+        store(out, select(above >= limit, above, below));
         return true;
     }
 };
@@ -214,33 +216,42 @@ TRIBO_LANES void standing(const Profile<F8>& p, const CurvedLine& line, double t
 
 template <CutterKind kind>
 void curved_of(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants,
-               const Offsets& at, const FarRows& far, float* out) {
+               const Offsets& at, const FarRows& far, const float* known, float* out) {
     const Profile<F8> p(tool);
     const Part part = nearest_part<kind>(p, instants, line.bounds, at.centre, at.radius);
     if (part.from == part.to) return standing<kind>(p, line, part.to, at, out);
     const SeenFrame frame(line, part);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
-            if (far.fills(b, c, out)) continue;
+            const F8 limit =
+                known ? min(far.near, load(known + kLatticeEdge * (b + kLatticeEdge * c))) : far.near;
+            if (far.fills(b, c, out, limit)) continue;
             PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
+            if (known && frame.stretches == 1) {
+                const F8 least = row_bound<kind>(p, frame, at.x, at.y[b], at.z[c], bounds);
+                if (every(least >= limit)) {
+                    store(out, max(least, -far.near));  // a bound from below is no proof of depth
+                    continue;
+                }
+            }
             bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
             SeenRow seen(frame, at.x, at.y[b], at.z[c]);
-            store(out, curved_row<kind>(p, seen, bounds, far.near));
+            store(out, curved_row<kind>(p, seen, bounds, Needed<F8>(far.near, limit)));
         }
     }
 }
 
 void curved(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants, Vec3 reference,
-            const field::Lattice& lattice, double near_mm, float* out) {
+            const field::Lattice& lattice, double near_mm, const float* known, float* out) {
     const Offsets at(lattice, reference);
     const FarRows far(near_mm, lattice.cell_mm);
     switch (tool.kind) {
         case CutterKind::ball:
-            return curved_of<CutterKind::ball>(tool, line, instants, at, far, out);
+            return curved_of<CutterKind::ball>(tool, line, instants, at, far, known, out);
         case CutterKind::bull:
-            return curved_of<CutterKind::bull>(tool, line, instants, at, far, out);
+            return curved_of<CutterKind::bull>(tool, line, instants, at, far, known, out);
         default:
-            return curved_of<CutterKind::flat>(tool, line, instants, at, far, out);
+            return curved_of<CutterKind::flat>(tool, line, instants, at, far, known, out);
     }
 }
 
@@ -259,7 +270,21 @@ void floors(const ToolProfile& tool, const CurvedInstants& at, const TravelBound
     }
 }
 
-constexpr SweepKernels kKernels{straight, straights, arc, curved, floors};
+void lower_bounds(const ToolProfile& tool, const TravelMiddles& travels, Vec3 point, float* out) {
+    const Profile<F8> p(tool);
+    const float seen[3] = {static_cast<float>(point.x), static_cast<float>(point.y),
+                           static_cast<float>(point.z)};
+    switch (tool.kind) {
+        case CutterKind::ball:
+            return store(out, bounds_from_middles<CutterKind::ball>(p, travels, seen));
+        case CutterKind::bull:
+            return store(out, bounds_from_middles<CutterKind::bull>(p, travels, seen));
+        default:
+            return store(out, bounds_from_middles<CutterKind::flat>(p, travels, seen));
+    }
+}
+
+constexpr SweepKernels kKernels{straight, straights, arc, curved, floors, lower_bounds};
 
 }  // namespace
 }  // namespace tribo::milling

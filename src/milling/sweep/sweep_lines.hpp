@@ -74,7 +74,21 @@ struct CurvedInstants {
     float tip[3][kCount], axis[3][kCount];            // unit axis
     float tip_rate[3][kCount], axis_rate[3][kCount];  // derivatives by t
 
+    CurvedInstants() = default;
     explicit CurvedInstants(const CurvedLine& line);
+    // Puts the tool at the instant t of a travel that begins at `start` into the place k.
+    void put(int k, const CurvedLine& line, double t, Vec3 start);
+};
+
+// Eight curved travels at the middle of each, relative to one point, and what bounds the distance around the
+// middle: TravelBounds, with |q''| = bend + bend_per_mm * reach (sweep_search.inl).
+struct TravelMiddles {
+    static constexpr int kCount = CurvedInstants::kCount;
+    CurvedInstants at;
+    float middle[3][kCount], spread[kCount], speed[kCount], turn[kCount], bend[kCount], bend_per_mm[kCount];
+
+    // Puts a travel that begins at `start` into the place k.
+    void put(int k, const CurvedLine& line, Vec3 start);
 };
 
 }  // namespace tribo::milling

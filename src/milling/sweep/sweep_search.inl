@@ -147,19 +147,26 @@ TRIBO_LANES void take(Least<T>& least, T distance, T t) {
     least.t = select(better, t, least.t);
 }
 
-// Returns the value below which a floor is worth an evaluation. Beyond `near` on both sides of the surface
-// only the sign is needed.
+// Which distances are needed: those between -deep and limit. Above and below only the side is.
 template <class T>
-TRIBO_LANES T goal_of(const Least<T>& least, T near) {
-    return select(least.distance > -near, min(least.distance - broadcast<T>(kSettled<T>), near),
-                  broadcast<T>(-kNever));
+struct Needed {
+    T deep, limit;
+    explicit Needed(T near) : deep(near), limit(near) {}
+    Needed(T d, T l) : deep(d), limit(l) {}
+};
+
+// Returns the value below which a floor is worth an evaluation.
+template <class T>
+TRIBO_LANES T goal_of(const Least<T>& least, const Needed<T>& needed) {
+    return select(least.distance > -needed.deep,
+                  min(least.distance - broadcast<T>(kSettled<T>), needed.limit), broadcast<T>(-kNever));
 }
 
 // Searches a stretch with known ends until nothing in it can lie below the least: depth first, each lane with
 // its own stack of pending stretches.
 template <bool kEdge, class T, class F>
-TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, Least<T>& least,
-                        const F& at) {
+TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, const Needed<T>& needed,
+                        Least<T>& least, const F& at) {
     const T zero = broadcast<T>(0), one = broadcast<T>(1), never = broadcast<T>(kNever);
     constexpr int kDepth = std::is_same_v<T, double> ? 32 : 12;
     constexpr double kMostLooks = std::is_same_v<T, double> ? 200 : 50;
@@ -167,7 +174,7 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, 
     T floors[kDepth], depth = zero, looks = zero, since_halving = zero;
     int used = 0;  // the greatest depth of any lane
     while (true) {
-        T goal = goal_of(least, near);
+        T goal = goal_of(least, needed);
         for (auto idle = both(floor >= goal, depth > zero); any(idle);
              idle = both(floor >= goal, depth > zero)) {
             for (int n = 0; n < used; ++n) {
@@ -189,7 +196,7 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, 
         const T below_left = floor_of<kEdge>(left, p), below_right = floor_of<kEdge>(right, p);
         const auto left_first = below_left < below_right;
         const T second = max(below_left, below_right);
-        goal = goal_of(least, near);
+        goal = goal_of(least, needed);
         const auto two = both(both(active, second < goal), depth < broadcast<T>(kDepth));
         if (any(two)) {
             const Stretch<T> other = blend<kEdge>(left_first, right, left);
@@ -211,8 +218,8 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, T near, 
 // searched in turn, the deepest first. node(k) equals at(k / count), perhaps at less cost. Farther than
 // `near` from the tool the result is a bound of the distance on that side.
 template <bool kEdge, class T, class N, class F>
-TRIBO_LANES Least<T> least_over(int count, int first, int last, const PointBounds<T>& p, T near,
-                                const N& node, const F& at) {
+TRIBO_LANES Least<T> least_over(int count, int first, int last, const PointBounds<T>& p,
+                                const Needed<T>& needed, const N& node, const F& at) {
     const T never = broadcast<T>(kNever);
     const auto time = [&](int k) { return broadcast<T>(static_cast<double>(k) / count); };
     Least<T> least{never, time(first)};
@@ -241,7 +248,7 @@ TRIBO_LANES Least<T> least_over(int count, int first, int last, const PointBound
         floor = select(deeper, under, floor);
         deepest = blend<kEdge>(deeper, s, deepest);
     }
-    const T bound = max(near, floor - broadcast<T>(kProven<T> - kSettled<T>));
+    const T bound = max(needed.limit, floor - broadcast<T>(kProven<T> - kSettled<T>));
     const T searched = deepest.lo;
     s = deepest;
     for (int k = first; k <= last; ++k) {
@@ -249,13 +256,13 @@ TRIBO_LANES Least<T> least_over(int count, int first, int last, const PointBound
             reach(k);
             floor = select(s.lo != searched, floor_of<kEdge>(s, p), never);
         }
-        if (any(floor < goal_of(least, near))) search<kEdge>(s, floor, p, near, least, at);
+        if (any(floor < goal_of(least, needed))) search<kEdge>(s, floor, p, needed, least, at);
         if (k == first) {
-            if (!any(second < goal_of(least, near))) break;
+            if (!any(second < goal_of(least, needed))) break;
             begin();
         } else {
             go_on();
         }
     }
-    return {select(least.distance > near, bound, least.distance), least.t};
+    return {select(least.distance > needed.limit, bound, least.distance), least.t};
 }
