@@ -471,11 +471,14 @@ double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTr
         }
     };
     // Where the axis turns, the window in which an edge moves outward has kinks along the meridian. So it is
-    // cut into pieces.
+    // cut into pieces, into few where it is short.
     constexpr int kArcPieces = 48;
+    constexpr double kPieceOfRadius = 0.04;
     const int kinked = travel.turns() ? 6 : 1;
     const auto add_along = [&](const auto& point_at, double s0, double s1, double entry, double exit,
-                               int pieces) {
+                               int most_pieces) {
+        const double needed = std::ceil((s1 - s0) / (kPieceOfRadius * cutter.radius_mm()));
+        const int pieces = std::max(1, static_cast<int>(std::min<double>(most_pieces, needed)));
         for (int n = 0; n < pieces && s1 > s0; ++n)
             add_piece(point_at, s0 + (s1 - s0) * n / pieces, s0 + (s1 - s0) * (n + 1) / pieces, entry, exit);
     };
