@@ -76,7 +76,7 @@ void measure_five_axes(Report& report, int repeats) {
     for (const auto& [name, kind] :
          {std::pair{"ball", milling::CutterKind::ball}, {"flat", milling::CutterKind::flat}}) {
         const milling::Cutter cutter = end_mill(kind, 6, 2, 20);
-        for (const double move_mm : {0.5, 5.0}) {
+        for (const double move_mm : {0.1, 0.5, 5.0}) {
             Cost five;
             const double ratio = median_of(repeats, [&] {
                 five = cost_of(session_setup(block_mm, cutter, passes(move_mm, 20), 0.2));
