@@ -60,7 +60,7 @@ TRIBO_LANES Stretch<T> blend(Mask<T> m, const Stretch<T>& u, const Stretch<T>& v
 // kSettled: largest height of the least distance found in a valley above its bottom, mm. kProven: any
 // distance is at most this much below the least that was found, mm.
 template <class T>
-constexpr double kSettled = std::is_same_v<T, double> ? 1e-7 : 1e-5;
+constexpr double kSettled = std::is_same_v<T, double> ? 1e-6 : 1e-5;
 template <class T>
 constexpr double kProven = std::is_same_v<T, double> ? 1e-5 : 4e-5;
 
