@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "motion/path/path.hpp"
+#include "session/block_setup.hpp"
 #include "session/kept_rows.hpp"
 #include "session/random_cut.hpp"
 
@@ -144,6 +145,35 @@ TEST(JoinedMoves, are_the_same_rows_however_often_the_run_stops) {
             EXPECT_NEAR(a.row.start_s, b.row.start_s, 1e-9);
             EXPECT_NEAR(length(was - b.force.peaks.mean_n), 0, share * (1 + length(was)))
                 << seed << " " << n << ": " << cut.words;
+        }
+    }
+}
+
+// Also where the time ends within a move, so that what is left of it is short.
+TEST(JoinedMoves, are_carved_again_and_name_the_move_that_made_a_place) {
+    milling::Cutter ball;
+    ball.kind = milling::CutterKind::ball;
+    ball.diameter_mm = 2;
+    ball.length_mm = 6;
+    for (const double piece_mm : {0.05, 0.3}) {
+        for (const double until_s : {0.3003, 0.317, 0.9}) {
+            MillSetup setup = block_setup({{0, -3, -4}, {12, 3, 0}}, ball, 0.1);
+            add_cut_in_pieces(setup, straight_cut({1, 0, -0.5}, {10, 0, -0.7}, 60 * kFeed), piece_mm);
+            setup.until_s = until_s;
+            const std::vector<motion::Move> moves = setup.moves;
+            MillSession session(std::move(setup), serial_for);
+            session.keep_states();
+            session.run({});
+            const double removed = session.totals().removed_mm3;
+            EXPECT_GT(removed, 0);
+            for (std::size_t n = 0; n < moves.size(); ++n) {
+                const Vec3 middle = 0.5 * (moves[n].start.tip_mm + moves[n].end.tip_mm);
+                if (middle.x > 1 + kFeed * until_s) break;
+                EXPECT_EQ(session.move_at(middle), n) << piece_mm << " " << until_s;
+            }
+            session.set_back(0);
+            session.run({});
+            EXPECT_EQ(session.totals().removed_mm3, removed);
         }
     }
 }

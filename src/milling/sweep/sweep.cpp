@@ -244,7 +244,7 @@ class CurvedSweep final : public field::Shape {
         return searched_below(point, bound);
     }
 
-    // The same, where no bound is expected to hold.
+    // The same without a look at cheap bounds first, where none is expected to hold.
     double searched_below(Vec3 point, double bound) const {
         const Vec3 d = point - start_;
         if (const auto near = upright_nearest(d))
@@ -433,9 +433,9 @@ std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, const motion::Mov
 
 std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, std::span<const motion::Move* const> moves) {
     if (moves.size() == 1) return make_sweep(cutter, *moves.front());
-    const bool is_profile = cutter.has_profile() || moves.size() > kMostParts;
+    const bool has_own_form = !cutter.has_profile() && moves.size() <= kMostParts;
     const auto every = [&](const auto& holds) {
-        return !is_profile && std::ranges::all_of(moves, [&](const motion::Move* m) { return holds(*m); });
+        return has_own_form && std::ranges::all_of(moves, [&](const motion::Move* m) { return holds(*m); });
     };
     const Vec3 axis = moves.front()->start.axis;
     if (every([&](const motion::Move& m) { return is_straight(m) && m.start.axis == axis; }))

@@ -34,10 +34,11 @@ struct StraightLine {
     }
 };
 
+// Largest number of moves whose sweep has a form of its own.
+inline constexpr std::size_t kMostParts = 16;
+
 // One of several straight travels with the same axis, in a frame that all of them share: the tip at its
 // start, and the unit direction (along_x, along_y) of its part across the axis.
-// At most kMostParts form one sweep.
-inline constexpr std::size_t kMostParts = 16;
 struct StraightPart {
     Vec3 start;
     double along_x = 1, along_y = 0;

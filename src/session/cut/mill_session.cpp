@@ -117,11 +117,14 @@ class MillSession::Run {
             std::ranges::lower_bound(moves.begin(), end, t_s, {}, &motion::MoveTiming::start_s) -
             moves.begin());
     }
-    // True if the move begins a piece of the stock's surface.
-    bool begins_piece(std::size_t move) const {
-        const milling::Cutter& cutter = setup_.cutters[setup_.cutter_of_move[move]];
-        return setup_.moves[move].kind != motion::MoveKind::dwell &&
-               !(joins_[move] && milling::shares_sweep(setup_.moves[move], cutter));
+    // True if the step begins a piece of the stock's surface.
+    bool begins_piece(const milling::Step& step) const {
+        return step.move->kind != motion::MoveKind::dwell &&
+               !(step.joins && milling::shares_sweep(*step.move, setup_.cutters[step.cutter]));
+    }
+    // Number of pieces that the first milled moves made, those of earlier jobs included.
+    std::uint32_t pieces_of(std::size_t moves) const {
+        return moves == 0 ? earlier_pieces_ : last_piece_of_move_[moves - 1];
     }
 
     void restore(std::size_t moves) {
@@ -136,10 +139,11 @@ class MillSession::Run {
         while (due < next_move_ && joins_[due]) ++due;  // a pass is carved as a whole
         if (states_->last(due) > carved_moves_) restore(due);
         while (carved_moves_ < due) {
-            std::size_t shapes = 0;
-            for (; carved_moves_ < due && (shapes < kShapesAtOnce || joins_[carved_moves_]); ++carved_moves_)
-                shapes += begins_piece(carved_moves_) ? 1 : 0;
-            stock_.carve_again(shapes);
+            const std::uint32_t carved = pieces_of(carved_moves_);
+            while (carved_moves_ < due &&
+                   (pieces_of(carved_moves_) < carved + kShapesAtOnce || joins_[carved_moves_]))
+                ++carved_moves_;
+            stock_.carve_again(pieces_of(carved_moves_) - carved);
             states_->offer(stock_, carved_moves_);
             if (sinks.progress && !sinks.progress(std::min(1.0, milled_s() / end_s_))) return false;
         }
@@ -184,7 +188,7 @@ class MillSession::Run {
                 if (totals_.stood_in_mm3 == 0) totals_.stood_in_line = steps_[n].move->line;
                 totals_.stood_in_mm3 += machined_.removed_mm3[n];
             }
-            if (begins_piece(next_move_ + n)) ++pieces_;
+            if (begins_piece(steps_[n])) ++pieces_;
             last_piece_of_move_.push_back(pieces_);
         }
         assert(pieces_ == stock_.shapes_carved());
