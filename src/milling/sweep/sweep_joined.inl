@@ -112,7 +112,7 @@ class StraightsSweep final : public field::Shape {
         const auto first = static_cast<std::size_t>(
             std::clamp(at * chord.parts_per_mm, 0.0, static_cast<double>(parts_.size() - 1)));
         for (std::size_t n = first; n < parts_.size() && !too_far(chord.at[n] - at); ++n) look(n);
-        for (std::size_t n = first; n-- > 0 && !too_far(at - chord.at[n + 1]);) look(n);
+        for (std::size_t n = first; n > 0 && !too_far(at - chord.at[n]); --n) look(n - 1);
         return least;
     }
 
