@@ -11,6 +11,7 @@
 #include <random>
 #include <rapidcheck/gtest.h>
 
+#include "milling/any_profile.hpp"
 #include "milling/brute_sweep.hpp"
 #include "milling/sweep/sweep_frames.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
@@ -273,6 +274,21 @@ RC_GTEST_PROP(Sweep, lattices_share_the_bits_of_shared_nodes, ()) {
     sweep->sample(a, left);
     sweep->sample(b, right);
     for (int n = 0; n < 64; ++n) RC_ASSERT(left[7 + 8 * n] == right[8 * n]);
+}
+
+// Bricks outside the box are not carved: it must hold the cap, which is level at its highest position.
+RC_GTEST_PROP(Sweep, box_holds_the_solid, ()) {
+    Cutter c = any_cutter();
+    c.length_mm = number(0.8, 3) * c.diameter_mm;
+    if (*rc::gen::inRange(0, 4) == 0) c = finished(form_tool());
+    const int what = *rc::gen::inRange(0, 3);
+    const auto sweep = make_sweep(c, what == 0 ? any_straight() : what == 1 ? any_arc() : any_curved());
+    const Box3 box = sweep->bounds_mm().inflated(1e-9), around = box.inflated(4);
+    for (int n = 0; n < 200; ++n) {
+        const Vec3 p{number(around.min.x, around.max.x), number(around.min.y, around.max.y),
+                     number(around.min.z, around.max.z)};
+        RC_ASSERT(sweep->distance_mm(p) >= 0 || box.contains(p));
+    }
 }
 
 RC_GTEST_PROP(Sweep, kernels_for_old_and_new_processors_give_the_same_bits, ()) {
