@@ -189,8 +189,10 @@ TEST(JoinedSweep, has_the_same_bits_on_every_processor) {
         for (int n = 0; n < 64; ++n) {
             const field::Lattice lattice{{-2, -2, -2}, 0.2, 6 * (n % 4), 6 * (n / 4 % 4), 6 * (n / 16)};
             std::array<float, field::kLatticeNodes> a, b;
-            sweep_kernels_sse2()->straights(ToolProfile(cutter), parts, frame, {}, lattice, 0.36, a.data());
-            sweep_kernels_v3()->straights(ToolProfile(cutter), parts, frame, {}, lattice, 0.36, b.data());
+            sweep_kernels_sse2()->joined_straight(ToolProfile(cutter), parts, frame, {}, lattice, 0.36,
+                                                  a.data());
+            sweep_kernels_v3()->joined_straight(ToolProfile(cutter), parts, frame, {}, lattice, 0.36,
+                                                b.data());
             ASSERT_EQ(a, b);
         }
     }

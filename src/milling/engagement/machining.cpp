@@ -423,10 +423,12 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     stock_.carve(shapes_, removed_);
 
     out.removed_mm3.assign(count, 0);
+    out.begins_piece.assign(count, 0);
     std::size_t shape = 0;
     for (std::size_t n = 0; n < count; ++n) {
         const Sweep& sweep = sweeps_[n];
         if (!sweep.shape) continue;
+        out.begins_piece[n] = sweep.owns_shape;
         if (sweep.owns_shape) out.removed_mm3[n] = removed_[shape++];
         if (sweep.is_rapid() && !sweep.step.move->is_place() && out.removed_mm3[n] > kBrush) {
             out.collisions.push_back({n, CollisionKind::rapid_through_stock, sweep.contact,

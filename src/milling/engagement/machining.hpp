@@ -36,8 +36,10 @@ struct Machined {
     std::vector<CutRow> rows;
     std::size_t row_count = 0;
     std::vector<Collision> collisions;
-    // By step. Steps that share a sweep have their volume at the first of them.
+    // By step. Steps that share a sweep are one piece of the stock's surface, which the first of them begins
+    // and which has the volume of all.
     std::vector<double> removed_mm3;
+    std::vector<char> begins_piece;
 };
 
 struct MachiningOptions {

@@ -439,11 +439,11 @@ std::unique_ptr<field::Shape> make_sweep(const Cutter& cutter, std::span<const m
     };
     const Vec3 axis = moves.front()->start.axis;
     if (every([&](const motion::Move& m) { return is_straight(m) && m.start.axis == axis; }))
-        return std::make_unique<StraightsSweep>(ToolProfile(cutter), moves);
+        return std::make_unique<JoinedStraightSweep>(ToolProfile(cutter), moves);
     std::vector<std::unique_ptr<const field::Shape>> sweeps;
     for (const motion::Move* move : moves) sweeps.push_back(make_sweep(cutter, *move));
     if (every([](const motion::Move& m) { return !m.arc && !is_straight(m); }))
-        return std::make_unique<CurvedsSweep>(ToolProfile(cutter), moves, std::move(sweeps));
+        return std::make_unique<JoinedCurvedSweep>(ToolProfile(cutter), moves, std::move(sweeps));
     return std::make_unique<JoinedSweep>(std::move(sweeps));
 }
 

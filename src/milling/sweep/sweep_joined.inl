@@ -2,9 +2,9 @@
 // Sweeps of several moves, one after the other. sweep.cpp includes this file behind the sweeps of one move.
 
 // Several straight travels with one axis, each from the end of the one before it.
-class StraightsSweep final : public field::Shape {
+class JoinedStraightSweep final : public field::Shape {
   public:
-    StraightsSweep(const ToolProfile& tool, std::span<const motion::Move* const> moves)
+    JoinedStraightSweep(const ToolProfile& tool, std::span<const motion::Move* const> moves)
         : tool_(tool),
           whole_(moves.front()->start.tip_mm, moves.back()->end.tip_mm - moves.front()->start.tip_mm,
                  moves.front()->start.axis) {
@@ -55,7 +55,7 @@ class StraightsSweep final : public field::Shape {
     }
 
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        sweep_kernels().straights(tool_, parts_, whole_.frame, whole_.start, lattice, near_mm, out);
+        sweep_kernels().joined_straight(tool_, parts_, whole_.frame, whole_.start, lattice, near_mm, out);
     }
 
   private:
@@ -125,10 +125,10 @@ class StraightsSweep final : public field::Shape {
 };
 
 // Curved sweeps one after the other.
-class CurvedsSweep final : public JoinedSweep {
+class JoinedCurvedSweep final : public JoinedSweep {
   public:
-    CurvedsSweep(const ToolProfile& tool, std::span<const motion::Move* const> moves,
-                 std::vector<std::unique_ptr<const field::Shape>> sweeps)
+    JoinedCurvedSweep(const ToolProfile& tool, std::span<const motion::Move* const> moves,
+                      std::vector<std::unique_ptr<const field::Shape>> sweeps)
         : JoinedSweep(std::move(sweeps)), tool_(tool), start_(moves.front()->start.tip_mm) {
         groups_.resize((moves.size() + TravelMiddles::kCount - 1) / TravelMiddles::kCount);
         for (std::size_t n = 0; n < TravelMiddles::kCount * groups_.size(); ++n) {

@@ -30,8 +30,8 @@ struct SweepKernels {
     void (*straight)(const ToolProfile&, const StraightLine&, const Frame&, Vec3 reference,
                      const field::Lattice&, double near_mm, float* out);
     // The union of several straight sweeps; only the side is exact beyond `near_mm`.
-    void (*straights)(const ToolProfile&, std::span<const StraightPart>, const Frame&, Vec3 reference,
-                      const field::Lattice&, double near_mm, float* out);
+    void (*joined_straight)(const ToolProfile&, std::span<const StraightPart>, const Frame&, Vec3 reference,
+                            const field::Lattice&, double near_mm, float* out);
     void (*arc)(const ToolProfile&, const ArcLine&, const Frame&, Vec3 reference, const field::Lattice&,
                 float* out);
     // The same accuracy. With `known`, the distances of another sweep at the nodes, exact only where it is

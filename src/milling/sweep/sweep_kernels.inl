@@ -123,8 +123,8 @@ void straight(const ToolProfile& tool, const StraightLine& line, const Frame& fr
 }
 
 template <CutterKind kind>
-void straights_of(const ToolProfile& tool, std::span<const StraightPart> parts, const Frame& frame,
-                  const Offsets& at, const FarRows& far, float* out) {
+void joined_straight_of(const ToolProfile& tool, std::span<const StraightPart> parts, const Frame& frame,
+                        const Offsets& at, const FarRows& far, float* out) {
     const Profile<F8> p(tool);
     double lowest_top = kNever;  // of the caps
     std::array<PartOf<F8>, kMostParts> part_of;
@@ -152,17 +152,17 @@ void straights_of(const ToolProfile& tool, std::span<const StraightPart> parts, 
     });
 }
 
-void straights(const ToolProfile& tool, std::span<const StraightPart> parts, const Frame& frame,
-               Vec3 reference, const field::Lattice& lattice, double near_mm, float* out) {
+void joined_straight(const ToolProfile& tool, std::span<const StraightPart> parts, const Frame& frame,
+                     Vec3 reference, const field::Lattice& lattice, double near_mm, float* out) {
     const Offsets at(lattice, reference);
     const FarRows far(near_mm, lattice.cell_mm);
     switch (tool.kind) {
         case CutterKind::ball:
-            return straights_of<CutterKind::ball>(tool, parts, frame, at, far, out);
+            return joined_straight_of<CutterKind::ball>(tool, parts, frame, at, far, out);
         case CutterKind::bull:
-            return straights_of<CutterKind::bull>(tool, parts, frame, at, far, out);
+            return joined_straight_of<CutterKind::bull>(tool, parts, frame, at, far, out);
         default:
-            return straights_of<CutterKind::flat>(tool, parts, frame, at, far, out);
+            return joined_straight_of<CutterKind::flat>(tool, parts, frame, at, far, out);
     }
 }
 
@@ -284,7 +284,7 @@ void lower_bounds(const ToolProfile& tool, const TravelMiddles& travels, Vec3 po
     }
 }
 
-constexpr SweepKernels kKernels{straight, straights, arc, curved, floors, lower_bounds};
+constexpr SweepKernels kKernels{straight, joined_straight, arc, curved, floors, lower_bounds};
 
 }  // namespace
 }  // namespace tribo::milling

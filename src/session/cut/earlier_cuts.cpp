@@ -71,7 +71,8 @@ EarlierCuts planned_cuts(const MillSetup& setup) {
     over_planned_cuts(setup, [&](std::size_t n, const motion::Move& move) {
         cuts.moves.push_back(move);
         cuts.cutter_of_move.push_back(setup.cutter_of_move[n]);
-        cuts.joins.push_back(joins[n]);
+        cuts.shares_sweep.push_back(joins[n] &&
+                                    milling::shares_sweep(move, setup.cutters[setup.cutter_of_move[n]]));
     });
     return cuts;
 }
@@ -129,13 +130,9 @@ bool carve(field::CarvedField& stock, std::span<const EarlierCuts> earlier,
     for (const EarlierCuts& cuts : earlier) {
         for (std::size_t n = 0, end; n < cuts.moves.size(); n = end) {
             std::vector<const motion::Move*> moves;
-            const milling::Cutter& cutter = cuts.cutters[cuts.cutter_of_move[n]];
-            const auto goes_on = [&](std::size_t at) {
-                return at < cuts.joins.size() && cuts.joins[at] &&
-                       milling::shares_sweep(cuts.moves[at], cutter);
-            };
-            for (end = n; end == n || goes_on(end); ++end) moves.push_back(&cuts.moves[end]);
-            shapes.push_back(milling::make_sweep(cutter, moves));
+            for (end = n; end == n || (end < cuts.shares_sweep.size() && cuts.shares_sweep[end]); ++end)
+                moves.push_back(&cuts.moves[end]);
+            shapes.push_back(milling::make_sweep(cuts.cutters[cuts.cutter_of_move[n]], moves));
             done += moves.size();
             if (done < all && shapes.size() < kCarvedAtOnce) continue;
             stock.carve(shapes, std::span(removed_mm3).first(shapes.size()));

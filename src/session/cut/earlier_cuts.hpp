@@ -22,7 +22,7 @@ struct EarlierCuts {
     std::vector<milling::Cutter> cutters;
     std::vector<motion::Move> moves;          // elementary, without dwells
     std::vector<std::size_t> cutter_of_move;  // index into `cutters`, one per move
-    std::vector<char> joins;                  // one per move (joins_of), or empty: no move joins another
+    std::vector<char> shares_sweep;           // one per move, with the move before it; empty: none does
 };
 
 // The cuts of a setup up to its until_s. The last move ends there.

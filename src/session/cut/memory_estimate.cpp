@@ -204,15 +204,12 @@ double steps_of(const motion::Move& move, const milling::Cutter& cutter, double 
     return std::floor(travel_mm(move, cutter) / (0.5 * edge)) + 1;
 }
 
-// Number of straight moves that share a sweep with the move before them. `cuts`: a setup or earlier cuts.
-template <class Cuts>
-double joined_parts(const Cuts& cuts, std::span<const char> joins) {
+// Number of straight moves that share a sweep with the move before them.
+double joined_parts(std::span<const motion::Move> moves, std::span<const char> shares_sweep) {
     double count = 0;
-    for (std::size_t n = 0; n < joins.size(); ++n) {
-        const motion::Move& move = cuts.moves[n];
-        const bool straight = !move.quadratic && move.start.axis == move.end.axis;
-        if (joins[n] && straight && milling::shares_sweep(move, cuts.cutters[cuts.cutter_of_move[n]]))
-            ++count;
+    for (std::size_t n = 0; n < shares_sweep.size(); ++n) {
+        const bool straight = !moves[n].quadratic && moves[n].start.axis == moves[n].end.axis;
+        if (shares_sweep[n] && straight) ++count;
     }
     return count;
 }
@@ -274,8 +271,13 @@ MemoryEstimate::MemoryEstimate(const MillSetup& setup, double cell_mm)
         travelled = 0;
         last_cutter = &cutter;
     });
-    joined_parts_ = joined_parts(setup, joins_of(setup));
-    for (const EarlierCuts& cuts : setup.earlier) joined_parts_ += joined_parts(cuts, cuts.joins);
+    std::vector<char> shares = joins_of(setup);
+    for (std::size_t n = 0; n < shares.size(); ++n)
+        shares[n] =
+            shares[n] && milling::shares_sweep(setup.moves[n], setup.cutters[setup.cutter_of_move[n]]);
+    joined_parts_ = joined_parts(setup.moves, shares);
+    for (const EarlierCuts& cuts : setup.earlier)
+        joined_parts_ += joined_parts(cuts.moves, cuts.shares_sweep);
     surface_cells_ = stock.most_surface_cells();
     touched_cells_ = stock.touched_cells();
 }

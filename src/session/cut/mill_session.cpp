@@ -117,11 +117,6 @@ class MillSession::Run {
             std::ranges::lower_bound(moves.begin(), end, t_s, {}, &motion::MoveTiming::start_s) -
             moves.begin());
     }
-    // True if the step begins a piece of the stock's surface.
-    bool begins_piece(const milling::Step& step) const {
-        return step.move->kind != motion::MoveKind::dwell &&
-               !(step.joins && milling::shares_sweep(*step.move, setup_.cutters[step.cutter]));
-    }
     // Number of pieces that the first milled moves made, those of earlier jobs included.
     std::uint32_t pieces_of(std::size_t moves) const {
         return moves == 0 ? earlier_pieces_ : last_piece_of_move_[moves - 1];
@@ -188,7 +183,7 @@ class MillSession::Run {
                 if (totals_.stood_in_mm3 == 0) totals_.stood_in_line = steps_[n].move->line;
                 totals_.stood_in_mm3 += machined_.removed_mm3[n];
             }
-            if (begins_piece(steps_[n])) ++pieces_;
+            if (machined_.begins_piece[n]) ++pieces_;
             last_piece_of_move_.push_back(pieces_);
         }
         assert(pieces_ == stock_.shapes_carved());
@@ -411,7 +406,6 @@ const MillSetup& MillSession::setup() const {
 }
 MillSetup MillSession::release_setup() {
     run_->setup_.blank = run_->stock_.release_blank();
-    run_->setup_.schedule = run_->schedule_;
     return std::move(run_->setup_);
 }
 
