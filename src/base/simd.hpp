@@ -25,6 +25,7 @@ namespace {
 using F8 = float __attribute__((vector_size(32)));
 using I8 = int __attribute__((vector_size(32)));
 using S8 = short __attribute__((vector_size(16)));
+using B8 = signed char __attribute__((vector_size(8)));
 #if defined(__wasm_simd128__)
 // Four lanes: the size of WebAssembly registers. Loops that keep many values are faster with these there.
 using F4 = float __attribute__((vector_size(16)));
@@ -259,18 +260,6 @@ TRIBO_LANES S8 narrow(I8 m) {
     return __builtin_convertvector(m, S8);
 }
 
-TRIBO_LANES S8 splat(std::uint16_t v) {
-    const auto s = static_cast<short>(v);
-    return S8{s, s, s, s, s, s, s, s};
-}
-TRIBO_LANES S8 load(const std::uint16_t* p) {
-    S8 v;
-    __builtin_memcpy(&v, p, sizeof v);
-    return v;
-}
-TRIBO_LANES void store(std::uint16_t* p, S8 v) {
-    __builtin_memcpy(p, &v, sizeof v);
-}
 template <class F = F8>
 TRIBO_LANES F load(const float* p) {
     F v;

@@ -44,8 +44,8 @@ void expect_same_bricks(const CarvedField& a, const CarvedField& b) {
                 ++bricks;
                 const Brick &one = a.brick(ref), &two = b.brick(other);
                 ASSERT_EQ(one.coord, two.coord);
-                ASSERT_EQ(one.distance_mm, two.distance_mm);
-                ASSERT_EQ(one.winner, two.winner);
+                ASSERT_EQ(one.steps, two.steps);
+                ASSERT_TRUE(one.winner == two.winner);
                 ASSERT_EQ(one.shapes, two.shapes);
                 ASSERT_EQ(one.volume_mm3, two.volume_mm3);
                 ASSERT_EQ(one.thin.size(), two.thin.size());

@@ -43,7 +43,7 @@ BrickCoord grid_size(const Box3& blank, double cell) {
 
 CarvedField::CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, ParallelFor parallel)
     : cell_(cell_mm),
-      near_(kNearCells * cell_mm),
+      near_(static_cast<double>(Brick::kNearCells) * cell_mm),
       brick_radius_(0.5 * std::sqrt(3.0) * kBrickCells * cell_mm),
       parallel_(std::move(parallel)),
       tables_(std::make_unique<FieldTables>(grid_size(blank->bounds_mm(), cell_mm))) {
@@ -63,8 +63,14 @@ Vec3 CarvedField::centre(BrickCoord b) const {
     return lattice(b).node(0, 0, 0) + Vec3{half, half, half};
 }
 
-double CarvedField::volume_mm3(const float* distance_mm) const {
-    return brick_kernels().volume_cells(distance_mm, static_cast<float>(cell_)) * cell_ * cell_ * cell_;
+double CarvedField::volume_mm3(const NodeSteps* steps) const {
+    return brick_kernels().volume_cells(steps) * cell_ * cell_ * cell_;
+}
+
+void CarvedField::sample_blank(BrickCoord b, NodeSteps* steps) const {
+    std::array<float, kLatticeNodes> nodes;
+    blank().sample(lattice(b), nodes.data());
+    brick_kernels().to_steps(nodes.data(), static_cast<float>(cell_), steps);
 }
 
 double CarvedField::blank_brick_volume(BrickCoord b) const {
@@ -72,27 +78,33 @@ double CarvedField::blank_brick_volume(BrickCoord b) const {
     if (d > brick_radius_ + cell_) return 0;
     const double edge = kBrickCells * cell_;
     if (d < -brick_radius_ - cell_) return edge * edge * edge;
-    std::array<float, kLatticeNodes> nodes;
-    blank().sample(lattice(b), nodes.data());
+    std::array<NodeSteps, kLatticeNodes> nodes;
+    sample_blank(b, nodes.data());
     return volume_mm3(nodes.data());
 }
 
+void CarvedField::sample_nodes(BrickCoord b, float* distance_mm) const {
+    const BrickRef at = ref(b);
+    if (at < kFirstBrick) return blank().sample(lattice(b), distance_mm);
+    for (int node = 0; node < kLatticeNodes; ++node)
+        distance_mm[node] = static_cast<float>(at_node_mm(brick(at), node));
+}
+
 void CarvedField::fill_from_blank(Brick& brick) const {
-    const auto floor = static_cast<float>(-near_);
+    constexpr auto kDeep = static_cast<NodeSteps>(kDeepest * kStepsPerCell - 1);
     brick.shapes.clear();
     brick.thin.clear();
     if (blank().distance_mm(centre(brick.coord)) < -brick_radius_ - near_) {
-        brick.distance_mm.fill(floor);
+        brick.steps.fill(kDeep);
         brick.winner.fill(Brick::kUnlisted);
         const double edge = kBrickCells * cell_;
         brick.volume_mm3 = edge * edge * edge;
         return;
     }
-    blank().sample(lattice(brick.coord), brick.distance_mm.data());
-    for (float& d : brick.distance_mm) d = std::max(d, floor);
+    sample_blank(brick.coord, brick.steps.data());
     brick.shapes.push_back(0);
     brick.winner.fill(0);
-    brick.volume_mm3 = volume_mm3(brick.distance_mm.data());
+    brick.volume_mm3 = volume_mm3(brick.steps.data());
 }
 
 void CarvedField::gather_brick(const Shape& shape, std::size_t number, BrickCoord b,
@@ -187,26 +199,28 @@ void CarvedField::update(Update& u) {
         const auto tie_mm =
             static_cast<float>(static_cast<double>(kTieCells) * cell_ + (searched ? kSearchedError : 0));
         const auto index = static_cast<std::uint16_t>(brick.shapes.size());
-        walls.find(brick, carved.data(), static_cast<float>(cell_));
+        const auto cell_mm = static_cast<float>(cell_);
+        walls.find(brick, carved.data(), cell_mm);
+        brick.winner.make_room(brick.shapes.size() + 1);
         const CarveResult result =
-            brick_kernels().carve(brick.distance_mm.data(), brick.winner.data(), carved.data(), index,
-                                  static_cast<float>(near_), static_cast<float>(cell_), tie_mm);
+            brick_kernels().carve(brick.steps.data(), brick.winner.low(), brick.winner.high(), carved.data(),
+                                  index, cell_mm, tie_mm);
         if (!result.changed) continue;
         u.drop = false;
         brick.change = change_;
-        if (result.least_mm > FieldQuery::kClearCells * cell_) {
+        if (static_cast<double>(result.least_cells) > FieldQuery::kClearCells) {
             removed_by_cut_[n] = brick.volume_mm3;
             u.air = true;
             return;
         }
-        const double removed = result.removed_cells + walls.update(brick, static_cast<float>(cell_));
+        const double removed = result.removed_cells + walls.update(brick);
         removed_by_cut_[n] = removed * cell_ * cell_ * cell_;
         brick.volume_mm3 -= removed_by_cut_[n];
         if (!result.won) continue;
         brick.shapes.push_back(id);
         const std::size_t every = searched ? kPruneEverySearched : kPruneEvery;
         if (result.tied || brick.shapes.size() % every == 0)
-            prune_shapes(brick, carved.data(), static_cast<float>(near_), tie_mm);
+            prune_shapes(brick, carved.data(), cell_mm, tie_mm);
     }
 }
 

@@ -21,8 +21,6 @@ namespace tribo::field {
 // `parallel`. To read while another thread carves, use a FieldReader.
 class CarvedField final : public contact::DistanceField {
   public:
-    // Nodes within this many cells of the surface decide the list of shapes of a brick.
-    static constexpr double kNearCells = 1.8;
     // The first node is this many cells outside the blank. The fraction keeps nodes off the round coordinates
     // where programs put their planes, so that signs at nodes seldom depend on rounding.
     static constexpr double kMarginCells = 2.37;
@@ -93,6 +91,9 @@ class CarvedField final : public contact::DistanceField {
     std::size_t bytes() const { return tables_->pool.bytes() + tables_->index.bytes(); }
 
     using Exact = FieldQuery::Exact;
+    double at_node_mm(const Brick& brick, int node) const { return tables_->query.at_node_mm(brick, node); }
+    // The distances at all nodes of a brick that is not air.
+    void sample_nodes(BrickCoord b, float* distance_mm) const;
     Exact exact(BrickRef ref, Vec3 point_mm) const { return tables_->query.exact(ref, point_mm); }
     // Returns the brick that contains the point. Outside the grid: a brick for which contains() is false.
     BrickCoord brick_at(Vec3 point_mm) const { return tables_->query.brick_at(point_mm); }
@@ -123,7 +124,8 @@ class CarvedField final : public contact::DistanceField {
     void plan_updates(std::size_t shapes);
     void update(Update& u);
     void fill_from_blank(Brick& brick) const;
-    double volume_mm3(const float* distance_mm) const;
+    double volume_mm3(const NodeSteps* steps) const;
+    void sample_blank(BrickCoord b, NodeSteps* steps) const;
     double blank_brick_volume(BrickCoord b) const;
     // For FieldReader: begin_show() shows the present state and, from now on, the state after each carve;
     // end_show() stops this.

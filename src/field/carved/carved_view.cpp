@@ -59,11 +59,7 @@ std::optional<Vec3> CarvedView::overlap(const Shape& shape, double depth_mm) con
                 if (ref == kUntouched && field_.blank().distance_mm(c) > radius) continue;
                 const Lattice nodes = field_.lattice({i, j, k});
                 shape.sample(nodes, other.data());
-                if (ref == kUntouched) {
-                    field_.blank().sample(nodes, own.data());
-                } else {
-                    own = field_.brick(ref).distance_mm;
-                }
+                field_.sample_nodes({i, j, k}, own.data());
                 for (const PendingShape& pending : pending_) {
                     if (pending.shape->distance_mm(c) > radius) continue;
                     pending.shape->sample(nodes, carved.data());

@@ -64,8 +64,7 @@ contact::SurfaceSample FieldQuery::sample(Vec3 p) const {
 
 double FieldQuery::clear_of_nodes(const Brick& brick, Vec3 p) const {
     const NearNode near = nearest_node(brick.coord, p);
-    return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(near.index)]) -
-           cell_mm * (length(near.off_cells) + kRounding);
+    return at_node_mm(brick, near.index) - cell_mm * (length(near.off_cells) + kRounding);
 }
 
 // In a brick that is completely `alike` (air or untouched): returns how far all bricks around are alike too,
@@ -111,7 +110,7 @@ double FieldQuery::clear_way_mm(Vec3 p, double enough_mm) const {
     }
     const Brick& brick = (*pool)[ref];
     const NearNode near = nearest_node(brick.coord, p);
-    const auto at_node = static_cast<double>(brick.distance_mm[static_cast<std::size_t>(near.index)]);
+    const double at_node = at_node_mm(brick, near.index);
     const double off = cell_mm * (length(near.off_cells) + kRounding);
     // Nearer to the surface than this, the exact distance is worth its cost.
     constexpr double kSureCells = 0.3;
@@ -126,7 +125,13 @@ ShapeId FieldQuery::emptied_by(Vec3 p, double skin_mm) const {
     const BrickRef ref = bricks.get(b);
     if (ref == kAir || ref == kUntouched) return 0;
     const Exact e = exact(ref, p, true);
-    return e.distance_mm >= -skin_mm ? e.shape : 0;
+    if (e.distance_mm < -skin_mm) return 0;
+    if (e.shape != 0 || e.distance_mm > skin_mm) return e.shape;
+    // On a face of the blank: a cut may end here.
+    for (const ShapeId id : (*pool)[ref].shapes) {
+        if (id != 0 && shape(id).distance_below(p, skin_mm) < skin_mm) return id;
+    }
+    return 0;
 }
 
 double FieldQuery::clearance_mm(Vec3 p, double enough_mm) const {
@@ -148,16 +153,15 @@ bool FieldQuery::is_material(Vec3 p, double skin_mm) const {
     if (ref == kUntouched) return blank().distance_mm(p) < -skin_mm;
     const Brick& brick = (*pool)[ref];
     const NearNode near = nearest_node(b, p);
-    const auto node = static_cast<std::size_t>(near.index);
     const double way = cell_mm * length(near.off_cells);
     // The sign at the node holds around it as far as its distance, less rounding.
-    const double d = static_cast<double>(brick.distance_mm[node]);
+    const double d = at_node_mm(brick, near.index);
     if (d > way + kRounding * cell_mm) return false;
     if (d < -way - kRounding * cell_mm - skin_mm) return true;
     const auto in_material = [&](ShapeId id) {
         return id == 0 ? blank().distance_mm(p) < -skin_mm : shape(id).distance_below(p, skin_mm) >= skin_mm;
     };
-    const std::uint16_t likely = brick.winner[node];
+    const std::uint16_t likely = brick.winner[static_cast<std::size_t>(near.index)];
     if (likely != Brick::kUnlisted && !in_material(brick.shapes[likely])) return false;
     for (std::size_t n = brick.shapes.size(); n-- > 0;) {
         if (n != likely && !in_material(brick.shapes[n])) return false;

@@ -28,7 +28,7 @@ struct FieldQuery {
     // If all nodes of a brick are farther than this from material (in cells), there is no material between
     // them either: half the diagonal of a cell.
     static constexpr double kClearCells = 0.8661;
-    // Distances at nodes are floats. Their error is less than this share of a cell.
+    // The error of distances at nodes is less than this share of a cell.
     static constexpr double kRounding = 1e-3;
 
     Vec3 origin_mm;
@@ -71,6 +71,11 @@ struct FieldQuery {
         const int i = nearest(q.x), j = nearest(q.y), k = nearest(q.z);
         return {node_index(i, j, k),
                 q - Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)}};
+    }
+
+    // The distance at a node. Far from the surface its size is a lower bound.
+    double at_node_mm(const Brick& brick, int node) const {
+        return cell_mm * static_cast<double>(brick.cells(node));
     }
 
     // The exact distance at `point_mm` in brick `ref`, and the shape that gives it. With `any_air` the search

@@ -10,7 +10,7 @@ namespace {
 
 std::size_t bytes_of(const Brick& brick) {
     return sizeof(Brick) + brick.shapes.capacity() * sizeof(ShapeId) +
-           brick.thin.capacity() * sizeof(Brick::Thin);
+           brick.thin.capacity() * sizeof(Brick::Thin) + brick.winner.bytes_beside();
 }
 
 // `like`: the chunk at another moment, or null. Its bricks are shared where they are the same.

@@ -31,10 +31,8 @@ struct Differences {
     bool even;   // alike on both sides
 };
 
-Differences differences_at(const Brick& brick, int a, int b, int c, double cell_mm) {
-    const auto at = [&](int node) {
-        return static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node)]);
-    };
+Differences differences_at(const FieldQuery& field, const Brick& brick, int a, int b, int c) {
+    const auto at = [&](int node) { return field.at_node_mm(brick, node); };
     const int node = node_index(a, b, c);
     Differences result{{}, true};
     const auto along = [&](int n, int stride) {
@@ -42,7 +40,7 @@ Differences differences_at(const Brick& brick, int a, int b, int c, double cell_
                   high = first + std::min(n + 1, kBrickCells) * stride,
                   middle = first + std::clamp(n, 1, kBrickCells - 1) * stride;
         const double bend = at(middle - stride) - 2 * at(middle) + at(middle + stride);
-        result.even = result.even && std::abs(bend) < kEven * cell_mm;
+        result.even = result.even && std::abs(bend) < kEven * field.cell_mm;
         return (at(high) - at(low)) * stride / (high - low);
     };
     result.slope = {along(a, 1), along(b, kLatticeEdge), along(c, kLatticeEdge * kLatticeEdge)};
@@ -89,8 +87,7 @@ void ShownSurface::look_at(BrickCoord where, double within_mm) {
             const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
             if (yz * cell_mm * cell_mm >= most_row * most_row) continue;
             for (int a = low(q.x); a <= high(q.x); ++a) {
-                const double d =
-                    static_cast<double>(brick.distance_mm[static_cast<std::size_t>(node_index(a, b, c))]);
+                const double d = field.at_node_mm(brick, node_index(a, b, c));
                 const double far = most + std::abs(d);
                 if (std::abs(d) > kClose * cell_mm ||
                     (yz + (a - q.x) * (a - q.x)) * cell_mm * cell_mm >= far * far)
@@ -128,17 +125,16 @@ bool ShownSurface::see(BrickCoord where, int a, int b, int c, ShownPlace& shown)
     const BrickRef ref = field_->bricks.get(where);
     if (ref < kFirstBrick) return false;
     const Brick& brick = (*field_->pool)[ref];
-    const auto index = static_cast<std::size_t>(node_index(a, b, c));
-    const auto d = static_cast<double>(brick.distance_mm[index]);
+    const int index = node_index(a, b, c);
+    const double d = field_->at_node_mm(brick, index);
     if (std::abs(d) > kClose * field_->cell_mm) return false;
     const Vec3 node = field_->lattice(where).node(a, b, c);
-    const auto [slope, even] = differences_at(brick, a, b, c, field_->cell_mm);
+    const auto [slope, even] = differences_at(*field_, brick, a, b, c);
     const double steep = length(slope) * field_->per_cell;
     const bool corner = !(steep > kOneSlope || (even && steep > kLeastSlope));
-    const std::uint16_t winner = brick.winner[index];
+    const std::uint16_t winner = brick.winner[static_cast<std::size_t>(index)];
     const ShapeId shape = winner == Brick::kUnlisted ? 0 : brick.shapes[winner];
-    const Vec3 normal = corner ? normal_at(where, static_cast<int>(index), shape, node)
-                               : normalized(slope, Vec3{0, 0, 1}),
+    const Vec3 normal = corner ? normal_at(where, index, shape, node) : normalized(slope, Vec3{0, 0, 1}),
                at = node - (steep > kOneSlope || corner ? d : d / steep) * normal;
     shown = {{at, normal, {}, false, shape, corner}, distance(at, point_), where, {a, b, c}};
     return true;

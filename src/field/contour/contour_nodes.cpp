@@ -91,12 +91,11 @@ std::optional<double> find_beyond(const CarvedField& field, BrickRef ref, Vec3 p
 BrickNodes::BrickNodes(const CarvedField& field, BrickCoord coord)
     : field_(field), coord_(coord), lattice_(field.lattice(coord)), ref_(field.ref(coord)) {
     find_around();
-    if (ref_ >= kFirstBrick) {
-        value_ = field.brick(ref_).distance_mm;
-    } else if (field.blank().distance_mm(field.centre(coord)) < -field.brick_radius_mm() - field.cell_mm()) {
+    if (ref_ < kFirstBrick &&
+        field.blank().distance_mm(field.centre(coord)) < -field.brick_radius_mm() - field.cell_mm()) {
         value_.fill(static_cast<float>(-field.near_mm()));
     } else {
-        field.blank().sample(lattice_, value_.data());
+        field.sample_nodes(coord, value_.data());
     }
     agree_on_border();
     look_at_rows();
@@ -121,14 +120,15 @@ void BrickNodes::agree_on_border() {
     const float clear = kAirCells * static_cast<float>(field_.cell_mm());
     for (const BorderNode& border : kBorder) {
         bool air = false;
-        const float* first = nullptr;
+        std::optional<double> first;
         for (std::size_t n = 0; n < border.count; ++n) {
             const BrickRef ref = around_[border.brick[n]];
             air |= ref == kAir;
-            if (ref >= kFirstBrick && !first) first = &field_.brick(ref).distance_mm[border.node_there[n]];
+            if (ref >= kFirstBrick && !first)
+                first = field_.at_node_mm(field_.brick(ref), border.node_there[n]);
         }
         float& value = value_[border.node];
-        if (first) value = *first;
+        if (first) value = static_cast<float>(*first);
         if (air && value < clear) value = clear;
     }
 }

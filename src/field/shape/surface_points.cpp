@@ -17,20 +17,18 @@ template <class Take>
 void for_nodes(const CarvedField& field, BrickCoord coord, const Take& take) {
     const BrickRef ref = field.ref(coord);
     if (ref == kAir) return;
-    std::array<float, kLatticeNodes> sampled;
-    const float* distance_mm = sampled.data();
-    if (ref == kUntouched) {
-        if (std::abs(field.blank().distance_mm(field.centre(coord))) > field.brick_radius_mm()) return;
-        field.blank().sample(field.lattice(coord), sampled.data());
-    } else {
-        distance_mm = field.brick(ref).distance_mm.data();
-    }
+    if (ref == kUntouched &&
+        std::abs(field.blank().distance_mm(field.centre(coord))) > field.brick_radius_mm())
+        return;
+    std::array<float, kLatticeNodes> distance_mm;
+    field.sample_nodes(coord, distance_mm.data());
     const auto near_mm = static_cast<float>(kNearCells * field.cell_mm());
     const Lattice lattice = field.lattice(coord);
     for (int c = 0; c < kBrickCells; ++c) {
         for (int b = 0; b < kBrickCells; ++b) {
             for (int a = 0; a < kBrickCells; ++a) {
-                if (std::abs(distance_mm[node_index(a, b, c)]) <= near_mm) take(lattice.node(a, b, c));
+                if (std::abs(distance_mm[static_cast<std::size_t>(node_index(a, b, c))]) <= near_mm)
+                    take(lattice.node(a, b, c));
             }
         }
     }

@@ -18,9 +18,9 @@
 namespace tribo::session {
 namespace {
 
-// A brick has its own nodes if the distance of the surface is less than CarvedField::kNearCells; in brick
+// A brick has its own nodes if the distance of the surface is less than Brick::kNearCells; in brick
 // edges.
-constexpr double kNearEdges = field::CarvedField::kNearCells / field::kBrickCells;
+constexpr double kNearEdges = static_cast<double>(field::Brick::kNearCells) / field::kBrickCells;
 // A brick is air if no node is nearer to the material; in brick edges.
 constexpr double kClearEdges = field::FieldQuery::kClearCells / field::kBrickCells;
 // Margin of the grid beyond the blank, in brick edges.

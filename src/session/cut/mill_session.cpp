@@ -379,7 +379,10 @@ const field::CarvedField& MillSession::stock() const {
     return run_->stock_;
 }
 std::optional<std::size_t> MillSession::move_at(Vec3 surface_mm) const {
-    const std::uint32_t piece = run_->stock_.sample(surface_mm).piece;
+    // Where a cut ends at a face of the blank, both are as near.
+    constexpr double kSkin = 1e-5;
+    std::uint32_t piece = run_->stock_.sample(surface_mm).piece;
+    if (piece == 0) piece = run_->stock_.emptied_by(surface_mm, kSkin);
     if (piece <= run_->earlier_pieces_) return std::nullopt;
     const auto& pieces = run_->last_piece_of_move_;
     const auto [first, last] = std::ranges::equal_range(pieces, piece);
