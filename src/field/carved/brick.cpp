@@ -137,8 +137,7 @@ double ThinWalls::update(Brick& brick) const {
 }
 
 void prune_shapes(Brick& brick, const float* newest_mm, float cell_mm, float tie_mm) {
-    const std::size_t count = brick.shapes.size();
-    const auto newest = static_cast<std::uint16_t>(count - 1);
+    const std::size_t count = brick.shapes.size(), newest = count - 1;
     std::array<std::uint8_t, kLatticeNodes> marks;
     brick_kernels().mark_near(brick.steps.data(), newest_mm, cell_mm, tie_mm, marks.data());
     // The marks of all nodes at which a shape gives the distance; one more place for unlisted nodes. Without
@@ -155,14 +154,14 @@ void prune_shapes(Brick& brick, const float* newest_mm, float cell_mm, float tie
     }
     std::array<std::uint16_t, kMostListed> renamed;
     std::uint16_t kept = 0;
-    for (std::uint16_t s = 0; s < count; ++s) {
+    for (std::size_t s = 0; s < count; ++s) {
         const bool keeps = s == newest ? use[s] != 0 : (use[s] & kMarkAlone) != 0;
         if (keeps) brick.shapes[kept] = brick.shapes[s];
         renamed[s] = keeps ? kept++ : Brick::kUnlisted;
     }
     if (kept == count) return;
     brick.shapes.resize(kept);
-    for (std::uint16_t s = 0; s < newest; ++s) {
+    for (std::size_t s = 0; s < newest; ++s) {
         if (use[s] == kMarkNear) renamed[s] = renamed[newest];
     }
     brick.winner.rename({renamed.data(), count}, kept);

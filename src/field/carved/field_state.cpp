@@ -19,8 +19,9 @@ std::shared_ptr<const KeptChunk> kept_chunk(const BrickChunk& chunk, const Brick
     const auto kept = std::make_shared<KeptChunk>();
     kept->change = change;
     std::size_t next = 0;  // in like->places
-    for (std::uint16_t at = 0; at < std::size(chunk.refs); ++at) {
-        const BrickRef ref = chunk.refs[at];
+    for (std::size_t place = 0; place < std::size(chunk.refs); ++place) {
+        const auto at = static_cast<std::uint16_t>(place);
+        const BrickRef ref = chunk.refs[place];
         if (ref == kUntouched) continue;
         if (ref == kAir) {
             kept->places.push_back({at, nullptr});
@@ -72,7 +73,7 @@ void CarvedField::restore(const FieldState& state) {
         if (chunk_changes_[n] == kept.change) continue;
         chunk_changes_[n] = kept.change;
         auto place = kept.places.begin();
-        for (std::uint16_t at = 0; at < kChunkEdge * kChunkEdge * kChunkEdge; ++at) {
+        for (std::size_t at = 0; at < kChunkEdge * kChunkEdge * kChunkEdge; ++at) {
             const bool is_touched = place != kept.places.end() && place->at == at;
             restore(tables_->index.table().coord(n, at), is_touched,
                     is_touched ? place->brick.get() : nullptr);
