@@ -347,6 +347,40 @@ RC_GTEST_PROP(UprightCurve, finds_the_nearest_instant, ()) {
     }
 }
 
+// All nodes near the surface, on both kinds of processors.
+RC_GTEST_PROP(UprightCurve, of_eight_nodes_at_once_is_that_of_one_point, ()) {
+    Cutter cutter = any_cutter();
+    cutter.kind = *rc::gen::element(CutterKind::flat, CutterKind::ball);
+    const ToolProfile tool(cutter);
+    Move move = any_upright_curve(number(0.02, 1));
+    const Vec3 middle = 0.5 * (move.start.tip_mm + move.end.tip_mm);
+    move.quadratic->tip_control_mm += number(0, 3) * (move.quadratic->tip_control_mm - middle);
+    const CurvedLine line = curved_line(move);
+    const auto curve = UprightCurve::of(tool, line);
+    RC_ASSERT(curve.has_value());
+    const auto sweep = make_sweep(cutter, move);
+    for (int round = 0; round < 6; ++round) {
+        const auto at = surface_point(*sweep, cutter, move);
+        if (!at) continue;
+        const double cell = std::exp(number(std::log(0.003), std::log(0.4))), near = 1.8 * cell;
+        const field::Lattice lattice{*at - 3 * cell * Vec3{1, 1, 1} + 3 * cell * vector(1), cell, 0, 0, 0};
+        float nodes[field::kLatticeNodes], other[field::kLatticeNodes];
+        const auto sample = [&](const SweepKernels& kernels, float* out) {
+            kernels.upright(tool, curve->line(), curve->frame(), line, move.start.tip_mm, lattice, near,
+                            nullptr, out);
+        };
+        sample(*sweep_kernels_sse2(), nodes);
+        const double size = 1 + length(lattice.node(0, 0, 0) - move.start.tip_mm);
+        for (int n = 0; n < field::kLatticeNodes; ++n) {
+            const double d = sweep->distance_mm(lattice.node(n % 8, n / 8 % 8, n / 64));
+            if (std::abs(d) < near) RC_ASSERT(std::abs(nodes[n] - d) < 2e-5 + 1e-6 * size);
+        }
+        if (!sweep_kernels_v3()) continue;
+        sample(*sweep_kernels_v3(), other);
+        RC_ASSERT(std::equal(nodes, nodes + field::kLatticeNodes, other));
+    }
+}
+
 TEST(UprightCurve, is_none_of_a_turning_axis_an_uneven_rise_or_a_bull_nose) {
     const ToolProfile flat{Cutter{}};
     EXPECT_TRUE(UprightCurve::of(flat, {{4, 0, 1}, {0, 0.1, 0}, {0, 0, 1}, {}, {}}));

@@ -298,7 +298,12 @@ class CurvedSweep final : public field::Shape {
 
     // Like sample_near(); with `known` exact only where the distance is less than that (sweep_kernels.hpp).
     void sample_below(const field::Lattice& lattice, double near_mm, const float* known, float* out) const {
-        sweep_kernels().curved(tool_, line_, instants_, start_, lattice, near_mm, known, out);
+        if (upright_) {
+            sweep_kernels().upright(tool_, upright_->line(), upright_->frame(), line_, start_, lattice,
+                                    near_mm, known, out);
+        } else {
+            sweep_kernels().curved(tool_, line_, instants_, start_, lattice, near_mm, known, out);
+        }
     }
 
   private:

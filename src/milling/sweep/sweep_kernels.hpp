@@ -38,6 +38,9 @@ struct SweepKernels {
     // less than these: the lesser of both is the distance of the two together.
     void (*curved)(const ToolProfile&, const CurvedLine&, const CurvedInstants&, Vec3 reference,
                    const field::Lattice&, double near_mm, const float* known, float* out);
+    // The same of a flat or ball cutter on a path that `upright` describes, too, in a frame of its own.
+    void (*upright)(const ToolProfile&, const UprightLine& upright, const Frame&, const CurvedLine&,
+                    Vec3 reference, const field::Lattice&, double near_mm, const float* known, float* out);
     // `point` is relative to the tip at the start.
     void (*floors)(const ToolProfile&, const CurvedInstants&, const TravelBounds&, Vec3 point, Floors& out);
     // Writes a lower bound of the distance to each of eight sweeps, without their flat tops. `point` is

@@ -2,6 +2,7 @@
 // The kernels of sweep_kernels.hpp; included by sweep_kernels_sse2.cpp and sweep_kernels_v3.cpp.
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "base/simd.hpp"
 #include "milling/sweep/sweep_kernels.hpp"
@@ -17,6 +18,7 @@ using field::kLatticeEdge;
 #include "milling/sweep/sweep_search.inl"
 #include "milling/sweep/sweep_distance.inl"
 #include "milling/sweep/sweep_curved.inl"
+#include "milling/sweep/sweep_upright.inl"
 // clang-format on
 
 // Node coordinates relative to the reference; node n along each axis. They become floats only after the
@@ -72,21 +74,41 @@ struct NoFarRows {
     TRIBO_LANES bool fills(int /*b*/, int /*c*/, float* /*out*/) const { return false; }
 };
 
+// The coordinates of the rows in a frame.
+class RowsInFrame {
+  public:
+    struct Row {
+        F8 x, y, z;
+    };
+
+    RowsInFrame(const Offsets& at, const Frame& frame) : at_(at) {
+        const Vec3 axes[3] = {frame.x, frame.y, frame.z};
+        for (int k = 0; k < 3; ++k) {
+            for (int n = 0; n < 3; ++n) axes_[k][n] = static_cast<float>(axes[k][n]);
+            along_[k] = at.x * splat(axes_[k][0]);
+        }
+    }
+    TRIBO_LANES Row row(int b, int c) const { return {seen(0, b, c), seen(1, b, c), seen(2, b, c)}; }
+
+  private:
+    TRIBO_LANES F8 seen(int k, int b, int c) const {
+        return along_[k] + splat(at_.y[b] * axes_[k][1] + at_.z[c] * axes_[k][2]);
+    }
+    const Offsets& at_;
+    F8 along_[3];
+    float axes_[3][3];
+};
+
 // Calls distance(x, y, z) with the coordinates in the frame, for each row of nodes that is not far.
 template <class Far, class F>
 TRIBO_LANES void over_rows(const Offsets& at, const Frame& frame, const Far& far, float* out,
                            const F& distance) {
-    const auto part = [](double u) { return static_cast<float>(u); };
-    const F8 along_x = at.x * splat(part(frame.x.x)), along_y = at.x * splat(part(frame.y.x)),
-             along_z = at.x * splat(part(frame.z.x));
+    const RowsInFrame rows(at, frame);
     for (int c = 0; c < kLatticeEdge; ++c) {
-        const float z[3] = {at.z[c] * part(frame.x.z), at.z[c] * part(frame.y.z), at.z[c] * part(frame.z.z)};
         for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
             if (far.fills(b, c, out)) continue;
-            const float y = at.y[b];
-            store(out, distance(along_x + splat(y * part(frame.x.y) + z[0]),
-                                along_y + splat(y * part(frame.y.y) + z[1]),
-                                along_z + splat(y * part(frame.z.y) + z[2])));
+            const auto [x, y, z] = rows.row(b, c);
+            store(out, distance(x, y, z));
         }
     }
 }
@@ -214,6 +236,20 @@ TRIBO_LANES void standing(const Profile<F8>& p, const CurvedLine& line, double t
     }
 }
 
+// The distances of row b of layer c, by the search.
+template <CutterKind kind>
+TRIBO_LANES F8 searched_row(const Profile<F8>& p, const SeenFrame& frame, const Offsets& at, int b, int c,
+                            PointBounds<F8> bounds, const Needed<F8>& needed) {
+    bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
+    SeenRow seen(frame, at.x, at.y[b], at.z[c]);
+    return curved_row<kind>(p, seen, bounds, needed);
+}
+
+// The distance below which those of row b of layer c are needed.
+TRIBO_LANES F8 limit_of(const FarRows& far, const float* known, int b, int c) {
+    return known ? min(far.near, load(known + kLatticeEdge * (b + kLatticeEdge * c))) : far.near;
+}
+
 template <CutterKind kind>
 void curved_of(const ToolProfile& tool, const CurvedLine& line, const CurvedInstants& instants,
                const Offsets& at, const FarRows& far, const float* known, float* out) {
@@ -223,10 +259,9 @@ void curved_of(const ToolProfile& tool, const CurvedLine& line, const CurvedInst
     const SeenFrame frame(line, part);
     for (int c = 0; c < kLatticeEdge; ++c) {
         for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
-            const F8 limit =
-                known ? min(far.near, load(known + kLatticeEdge * (b + kLatticeEdge * c))) : far.near;
+            const F8 limit = limit_of(far, known, b, c);
             if (far.fills(b, c, out, limit)) continue;
-            PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
+            const PointBounds<F8> bounds = bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
             if (known && frame.stretches == 1) {
                 const F8 least = row_bound<kind>(p, frame, at.x, at.y[b], at.z[c], bounds);
                 if (every(least >= limit)) {
@@ -234,9 +269,7 @@ void curved_of(const ToolProfile& tool, const CurvedLine& line, const CurvedInst
                     continue;
                 }
             }
-            bounds.way_error = splat(frame.spin) * bounds.speed * bounds.reach;
-            SeenRow seen(frame, at.x, at.y[b], at.z[c]);
-            store(out, curved_row<kind>(p, seen, bounds, Needed<F8>(far.near, limit)));
+            store(out, searched_row<kind>(p, frame, at, b, c, bounds, Needed<F8>(far.near, limit)));
         }
     }
 }
@@ -252,6 +285,42 @@ void curved(const ToolProfile& tool, const CurvedLine& line, const CurvedInstant
             return curved_of<CutterKind::bull>(tool, line, instants, at, far, known, out);
         default:
             return curved_of<CutterKind::flat>(tool, line, instants, at, far, known, out);
+    }
+}
+
+template <CutterKind kind>
+void upright_of(const ToolProfile& tool, const UprightLine& upright, const Frame& own, const CurvedLine& line,
+                const Offsets& at, const FarRows& far, const float* known, float* out) {
+    const Profile<F8> p(tool);
+    const RowsInFrame rows(at, own);
+    std::optional<SeenFrame> searched;  // few bricks have points that must be searched
+    for (int c = 0; c < kLatticeEdge; ++c) {
+        for (int b = 0; b < kLatticeEdge; ++b, out += kLatticeEdge) {
+            const F8 limit = limit_of(far, known, b, c);
+            if (far.fills(b, c, out, limit)) continue;
+            const auto [x, y, z] = rows.row(b, c);
+            I8 sure;
+            F8 distance = upright_distance<kind>(p, upright, x, y, z, sure);
+            if (!every(sure)) {
+                if (!searched) searched.emplace(line, Part{});
+                const PointBounds<F8> bounds =
+                    bounds_of(p, line.bounds, at.x, splat(at.y[b]), splat(at.z[c]));
+                const Needed<F8> needed(far.near, limit);
+                distance = select(sure, distance, searched_row<kind>(p, *searched, at, b, c, bounds, needed));
+            }
+            store(out, distance);
+        }
+    }
+}
+
+void upright(const ToolProfile& tool, const UprightLine& own, const Frame& frame, const CurvedLine& line,
+             Vec3 reference, const field::Lattice& lattice, double near_mm, const float* known, float* out) {
+    const Offsets at(lattice, reference);
+    const FarRows far(near_mm, lattice.cell_mm);
+    if (tool.kind == CutterKind::ball) {
+        upright_of<CutterKind::ball>(tool, own, frame, line, at, far, known, out);
+    } else {
+        upright_of<CutterKind::flat>(tool, own, frame, line, at, far, known, out);
     }
 }
 
@@ -284,7 +353,7 @@ void lower_bounds(const ToolProfile& tool, const TravelMiddles& travels, Vec3 po
     }
 }
 
-constexpr SweepKernels kKernels{straight, joined_straight, arc, curved, floors, lower_bounds};
+constexpr SweepKernels kKernels{straight, joined_straight, arc, curved, upright, floors, lower_bounds};
 
 }  // namespace
 }  // namespace tribo::milling

@@ -51,6 +51,15 @@ struct ArcLine {
     double radius = 0, end_x = 1, end_y = 0;
 };
 
+// Travel along a quadratic with one axis and an even rise, in a frame whose z is the axis: the tip is at
+// (across t + bend_x t^2, bend_y t^2, rise t).
+struct UprightLine {
+    double across = 0, bend_x = 0, bend_y = 0, rise = 0;
+    // The square of the distance to the axis is convex in t for points (x, y) with bend_x x + bend_y y below
+    // this.
+    double convex_below = 0;
+};
+
 // Bounds of the motion of the tool over t in 0..1, from the control points of tip and axis. Derivatives by t,
 // mm and radians. A point at the distance d from `middle` is at most d + spread away from the tip.
 struct TravelBounds {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tribo::milling {
@@ -24,17 +25,18 @@ std::optional<UprightCurve> UprightCurve::of(const ToolProfile& tool, const Curv
     UprightCurve c;
     c.kind_ = tool.kind;
     c.radius_mm_ = tool.radius_mm;
-    c.axis_ = normalized(line.axis0);
-    if (std::abs(dot(line.tip2, c.axis_)) > kUneven) return std::nullopt;
-    c.rise_mm_ = dot(line.tip1 + line.tip2, c.axis_);
-    c.first_ = across(line.tip1, c.axis_);
-    c.second_ = across(line.tip2, c.axis_);
-    c.first_squared_ = squared_length(c.first_);
-    c.second_squared_ = squared_length(c.second_);
-    c.turned_ = dot(c.first_, c.second_);
-    const double least_speed = std::max(0.0, length(c.first_) - 2 * length(c.second_));
-    c.least_speed_squared_ = least_speed * least_speed;
-    c.turned_back_ = std::min(0.0, c.turned_);
+    const Vec3 z = normalized(line.axis0);
+    if (std::abs(dot(line.tip2, z)) > kUneven) return std::nullopt;
+    const Vec3 x = normalized(across(line.tip1, z), any_perpendicular(z));
+    c.frame_ = {x, cross(z, x), z};
+    const Vec3 first = c.frame_.into(line.tip1), second = c.frame_.into(line.tip2);
+    const double least_speed = first.x - 2 * std::hypot(second.x, second.y);
+    // The square is convex where the square of the speed is more than twice the bend towards the point.
+    constexpr double kMoreThanTwice = 2.1;
+    c.line_ = {first.x, second.x, second.y, first.z + second.z,
+               least_speed > 0
+                   ? least_speed * least_speed / kMoreThanTwice + std::min(0.0, first.x * second.x)
+                   : -std::numeric_limits<double>::infinity()};
     return c;
 }
 
@@ -43,11 +45,14 @@ double UprightCurve::HalfRate::rounding() const {
 }
 
 double UprightCurve::squared_mm2(Vec3 point, double t) const {
-    return squared_length(point - t * (first_ + t * second_));
+    const double x = point.x - t * (line_.across + t * line_.bend_x), y = point.y - t * t * line_.bend_y;
+    return x * x + y * y;
 }
 
 UprightCurve::HalfRate UprightCurve::half_rate(Vec3 point) const {
-    return {-dot(point, first_), first_squared_ - 2 * dot(point, second_), 3 * turned_, 2 * second_squared_};
+    const UprightLine& l = line_;
+    return {-point.x * l.across, l.across * l.across - 2 * (point.x * l.bend_x + point.y * l.bend_y),
+            3 * l.across * l.bend_x, 2 * (l.bend_x * l.bend_x + l.bend_y * l.bend_y)};
 }
 
 template <class F>
@@ -70,17 +75,17 @@ double UprightCurve::zero_of(double start, double still, const F& value_and_slop
     return t;
 }
 
-UprightCurve::Nearest UprightCurve::nearest_of_flat(Vec3 point, double height) const {
+UprightCurve::Nearest UprightCurve::nearest_of_flat(Vec3 point) const {
     const auto side = [&](double t) { return std::sqrt(squared_mm2(point, t)) - radius_mm_; };
-    const auto bottom = [&](double t) { return t * rise_mm_ - height; };
+    const auto bottom = [&](double t) { return t * line_.rise - point.z; };
     const HalfRate rate = half_rate(point);
-    const double chord = dot(point, first_) / std::max(first_squared_, 1e-300);
+    const double chord = point.x / std::max(line_.across, 1e-300);
     const double t = zero_of(std::clamp(chord, 0.0, 1.0), rate.rounding(),
                              [&](double at) { return std::pair{rate.at(at), rate.slope(at)}; });
     const double beside = side(t);
-    if (beside >= bottom(t) || rise_mm_ == 0) return {std::max(beside, bottom(t)), t};
+    if (beside >= bottom(t) || line_.rise == 0) return {std::max(beside, bottom(t)), t};
     // Below the bottom: the tool comes nearer where it is higher, as far as its edge.
-    const double end = rise_mm_ > 0 ? 0 : 1;
+    const double end = line_.rise > 0 ? 0 : 1;
     if (side(end) <= bottom(end)) return {bottom(end), end};
     double in = t, out = end, below = beside - bottom(t), above = side(end) - bottom(end);
     double at = t;
@@ -105,33 +110,29 @@ UprightCurve::Nearest UprightCurve::nearest_of_flat(Vec3 point, double height) c
     return {std::max(side(at), bottom(at)), at};
 }
 
-UprightCurve::Nearest UprightCurve::nearest_of_ball(Vec3 point, double height) const {
-    const auto under = [&](double t) { return std::min(height - t * rise_mm_ - radius_mm_, 0.0); };
+UprightCurve::Nearest UprightCurve::nearest_of_ball(Vec3 point) const {
+    const double height = point.z - radius_mm_, rise = line_.rise;
+    const auto under = [&](double t) { return std::min(height - t * rise, 0.0); };
     const HalfRate rate = half_rate(point);
-    const Vec3 way = first_ + second_;
-    const double chord = dot(point, way) + (height - radius_mm_) * rise_mm_;
-    const double t =
-        zero_of(std::clamp(chord / std::max(squared_length(way) + rise_mm_ * rise_mm_, 1e-300), 0.0, 1.0),
-                rate.rounding(), [&](double at) {
-                    const double below = under(at);
-                    return std::pair{rate.at(at) - below * rise_mm_,
-                                     rate.slope(at) + (below < 0 ? rise_mm_ * rise_mm_ : 0)};
-                });
+    const Vec3 way{line_.across + line_.bend_x, line_.bend_y, rise};
+    const double chord = dot({point.x, point.y, height}, way) / std::max(squared_length(way), 1e-300);
+    const double t = zero_of(std::clamp(chord, 0.0, 1.0), rate.rounding(), [&](double at) {
+        const double below = under(at);
+        return std::pair{rate.at(at) - below * rise, rate.slope(at) + (below < 0 ? rise * rise : 0)};
+    });
     const double below = under(t);
     return {std::sqrt(squared_mm2(point, t) + below * below) - radius_mm_, t};
 }
 
 std::optional<UprightCurve::Nearest> UprightCurve::nearest(Vec3 d) const {
-    const double height = dot(d, axis_);
-    const Vec3 point = d - height * axis_;
-    // The square of the distance to the axis is convex in t: then one instant is nearest.
-    if (!(least_speed_squared_ > 2.1 * (dot(point, second_) - turned_back_) && least_speed_squared_ > 0))
-        return std::nullopt;
-    return kind_ == CutterKind::ball ? nearest_of_ball(point, height) : nearest_of_flat(point, height);
+    const Vec3 point = frame_.into(d);
+    // Where the square of the distance to the axis is convex, one instant is nearest.
+    if (!(point.x * line_.bend_x + point.y * line_.bend_y < line_.convex_below)) return std::nullopt;
+    return kind_ == CutterKind::ball ? nearest_of_ball(point) : nearest_of_flat(point);
 }
 
 double UprightCurve::lowest_mm(Vec3 d) const {
-    return dot(d, axis_) - std::max(rise_mm_, 0.0);
+    return dot(d, frame_.z) - std::max(line_.rise, 0.0);
 }
 
 }  // namespace tribo::milling

@@ -24,9 +24,14 @@ class UprightCurve {
     // The least height of the point above the tip.
     double lowest_mm(Vec3 point) const;
 
+    // x along the travel at its start.
+    const Frame& frame() const { return frame_; }
+    const UprightLine& line() const { return line_; }
+
   private:
-    // Of a point's distance to the axis: the square.
-    double squared_mm2(Vec3 across, double t) const;
+    // Points are in the frame, relative to the tip at the start. Of a point's distance to the axis: the
+    // square.
+    double squared_mm2(Vec3 point, double t) const;
     // Half of the rate of that square by t: a cubic polynomial.
     struct HalfRate {
         double of_one, of_t, of_t2, of_t3;
@@ -36,9 +41,9 @@ class UprightCurve {
         // A step of t that is rounding.
         double rounding() const;
     };
-    HalfRate half_rate(Vec3 across) const;
-    Nearest nearest_of_flat(Vec3 across, double height) const;
-    Nearest nearest_of_ball(Vec3 across, double height) const;
+    HalfRate half_rate(Vec3 point) const;
+    Nearest nearest_of_flat(Vec3 point) const;
+    Nearest nearest_of_ball(Vec3 point) const;
     // The zero of an increasing function of t with a slope above 0: 0 or 1 where it has none between. Ends
     // with a step below `still`.
     template <class F>
@@ -46,10 +51,8 @@ class UprightCurve {
 
     CutterKind kind_ = CutterKind::flat;
     double radius_mm_ = 0;
-    Vec3 axis_, first_, second_;  // unit axis; coefficients of t and t^2 of the tip's way across it
-    double first_squared_ = 0, second_squared_ = 0, turned_ = 0;  // their products
-    double rise_mm_ = 0;                                          // over the whole travel
-    double least_speed_squared_ = 0, turned_back_ = 0;            // of the way across the axis
+    Frame frame_;
+    UprightLine line_;
 };
 
 }  // namespace tribo::milling
