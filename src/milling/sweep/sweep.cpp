@@ -234,7 +234,9 @@ class CurvedSweep final : public field::Shape {
             // On a grid that is coarse beside the moves a brick has hundreds of shapes, most of them far. At
             // an edge the mitred distance is at most the square root of 2 shorter than the distance.
             if (beyond(box_, point) > 1.4143 * std::max(bound, 0.0)) return bound;
-            if (!upright_) {
+            if (upright_) {
+                if (upright_->is_beyond(d, bound)) return bound;
+            } else {
                 const Profile<double> p(tool_);
                 const double least =
                     by_kind(tool_.kind, [&]<CutterKind kind>() { return curved_bound<kind>(p, line_, d); });

@@ -12,6 +12,7 @@ namespace {
 constexpr int kMostSteps = 40;
 // Of t. A rate of change is off by some ulps of its largest term.
 constexpr double kStill = 1e-13, kUlps = 1e-15;
+constexpr double kOnEdge = 1e-12;  // mm
 
 Vec3 across(Vec3 v, Vec3 axis) {
     return v - dot(v, axis) * axis;
@@ -87,25 +88,16 @@ UprightCurve::Nearest UprightCurve::nearest_of_flat(Vec3 point) const {
     // Below the bottom: the tool comes nearer where it is higher, as far as its edge.
     const double end = line_.rise > 0 ? 0 : 1;
     if (side(end) <= bottom(end)) return {bottom(end), end};
-    double in = t, out = end, below = beside - bottom(t), above = side(end) - bottom(end);
-    double at = t;
-    for (int n = 0, last = 0; n < 2 * kMostSteps && std::abs(out - in) > kStill; ++n) {
-        at = in + (out - in) * below / (below - above);
+    double in = t, out = end, at = end;
+    for (int n = 0; n < kMostSteps; ++n) {
         const double gap = side(at) - bottom(at);
-        if (gap == 0) break;
-        // Regula falsi in the Illinois form.
-        if (gap < 0) {
-            in = at;
-            below = gap;
-            if (last < 0) above *= 0.5;
-            last = -1;
-        } else {
-            out = at;
-            above = gap;
-            if (last > 0) below *= 0.5;
-            last = 1;
-        }
-        if (std::abs(gap) < 1e-12) break;
+        if (std::abs(gap) < kOnEdge) break;
+        (gap < 0 ? in : out) = at;
+        // Newton's step; where it leads out of what is left, the middle.
+        double next = at - gap / (rate.at(at) / (side(at) + radius_mm_) - line_.rise);
+        if (!(std::min(in, out) < next && next < std::max(in, out))) next = 0.5 * (in + out);
+        if (std::abs(next - at) < kStill) break;
+        at = next;
     }
     return {std::max(side(at), bottom(at)), at};
 }
@@ -129,6 +121,17 @@ std::optional<UprightCurve::Nearest> UprightCurve::nearest(Vec3 d) const {
     // Where the square of the distance to the axis is convex, one instant is nearest.
     if (!(point.x * line_.bend_x + point.y * line_.bend_y < line_.convex_below)) return std::nullopt;
     return kind_ == CutterKind::ball ? nearest_of_ball(point) : nearest_of_flat(point);
+}
+
+bool UprightCurve::is_beyond(Vec3 d, double bound_mm) const {
+    const Vec3 point = frame_.into(d);
+    if (std::min(line_.rise, 0.0) - point.z >= bound_mm) return true;
+    // The path across the axis is nowhere farther than this from its chord.
+    const double sag = 0.25 * std::hypot(line_.bend_x, line_.bend_y), reach = radius_mm_ + sag + bound_mm;
+    if (reach <= 0) return false;
+    const Vec3 way{line_.across + line_.bend_x, line_.bend_y, 0}, from{point.x, point.y, 0};
+    const double t = std::clamp(dot(from, way) / std::max(squared_length(way), 1e-300), 0.0, 1.0);
+    return squared_length(from - t * way) >= reach * reach;
 }
 
 double UprightCurve::lowest_mm(Vec3 d) const {

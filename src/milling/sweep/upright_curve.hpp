@@ -21,6 +21,8 @@ class UprightCurve {
     // `point` is relative to the tip at the start. None where the path bends so much that the point may be
     // equally far from two instants.
     std::optional<Nearest> nearest(Vec3 point) const;
+    // Whether the distance is known without a search to be at least bound_mm.
+    bool is_beyond(Vec3 point, double bound_mm) const;
     // The least height of the point above the tip.
     double lowest_mm(Vec3 point) const;
 
