@@ -73,10 +73,11 @@ Move any_arc() {
     return m;
 }
 
-// A piece of a helix.
+// A piece of a helix; some plunge.
 Move any_upright_curve(double share = 1) {
     const Vec3 axis = direction(), bend = 0.05 * vector(1);
-    Move m = straight_move(vector(20), axis, number(0.3, share * 10) * direction());
+    const Vec3 along = *rc::gen::inRange(0, 6) == 0 ? axis : direction();
+    Move m = straight_move(vector(20), axis, number(0.3, share * 10) * along);
     const Vec3 travel = m.end.tip_mm - m.start.tip_mm;
     m.quadratic = motion::Quadratic{
         m.start.tip_mm + 0.5 * travel + length(travel) * (bend - dot(bend, axis) * axis), axis};

@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace tribo::milling {
 namespace {
 
 constexpr int kMostSteps = 40;
-// Of t. A rate of change is off by some ulps of its largest term.
-constexpr double kStill = 1e-13, kUlps = 1e-15;
+// Of t: the last step of Newton's method, whose error is about its square. A rate of change is off by some
+// ulps of its largest term.
+constexpr double kStill = 1e-8, kUlps = 1e-15;
 constexpr double kOnEdge = 1e-12;  // mm
 
 Vec3 across(Vec3 v, Vec3 axis) {
@@ -21,23 +21,28 @@ Vec3 across(Vec3 v, Vec3 axis) {
 }  // namespace
 
 std::optional<UprightCurve> UprightCurve::of(const ToolProfile& tool, const CurvedLine& line) {
-    constexpr double kTurn = 1e-12, kUneven = 1e-9;  // rad, mm
+    constexpr double kTurn = 1e-12, kUneven = 1e-9, kRounding = 1e-12;  // rad, mm, share
     if (tool.kind == CutterKind::bull || line.bounds.turn > kTurn) return std::nullopt;
     UprightCurve c;
     c.kind_ = tool.kind;
     c.radius_mm_ = tool.radius_mm;
     const Vec3 z = normalized(line.axis0);
     if (std::abs(dot(line.tip2, z)) > kUneven) return std::nullopt;
-    const Vec3 x = normalized(across(line.tip1, z), any_perpendicular(z));
+    const Vec3 way = across(line.tip1, z);
+    // Of a steep travel little is across the axis, and rounding makes that oblique.
+    const Vec3 x = length(way) > kRounding * length(line.tip1) ? normalized(across(normalized(way), z))
+                                                               : any_perpendicular(z);
     c.frame_ = {x, cross(z, x), z};
     const Vec3 first = c.frame_.into(line.tip1), second = c.frame_.into(line.tip2);
-    const double least_speed = first.x - 2 * std::hypot(second.x, second.y);
-    // The square is convex where the square of the speed is more than twice the bend towards the point.
-    constexpr double kMoreThanTwice = 2.1;
-    c.line_ = {first.x, second.x, second.y, first.z + second.z,
-               least_speed > 0
-                   ? least_speed * least_speed / kMoreThanTwice + std::min(0.0, first.x * second.x)
-                   : -std::numeric_limits<double>::infinity()};
+    const double squared = second.x * second.x + second.y * second.y, turned = first.x * second.x;
+    // Half of the second derivative of the square is first^2 + 6 t first second + 6 t^2 second^2, less twice
+    // the product of the point and `second`; at this t the rest is least.
+    const double flattest = std::clamp(-turned / std::max(2 * squared, 1e-300), 0.0, 1.0);
+    const double least = first.x * first.x + 6 * flattest * (turned + flattest * squared);
+    // Closer to zero Newton's method has no hold.
+    constexpr double kLeast = 0.025;
+    c.line_ = {first.x, second.x, second.y, first.z + second.z, 0.5 * (least - kLeast * first.x * first.x)};
+    c.sag_mm_ = 0.25 * std::sqrt(squared);
     return c;
 }
 
@@ -96,8 +101,7 @@ UprightCurve::Nearest UprightCurve::nearest_of_flat(Vec3 point) const {
         // Newton's step; where it leads out of what is left, the middle.
         double next = at - gap / (rate.at(at) / (side(at) + radius_mm_) - line_.rise);
         if (!(std::min(in, out) < next && next < std::max(in, out))) next = 0.5 * (in + out);
-        if (std::abs(next - at) < kStill) break;
-        at = next;
+        if (std::abs(std::exchange(at, next) - next) < kStill) break;
     }
     return {std::max(side(at), bottom(at)), at};
 }
@@ -126,8 +130,7 @@ std::optional<UprightCurve::Nearest> UprightCurve::nearest(Vec3 d) const {
 bool UprightCurve::is_beyond(Vec3 d, double bound_mm) const {
     const Vec3 point = frame_.into(d);
     if (std::min(line_.rise, 0.0) - point.z >= bound_mm) return true;
-    // The path across the axis is nowhere farther than this from its chord.
-    const double sag = 0.25 * std::hypot(line_.bend_x, line_.bend_y), reach = radius_mm_ + sag + bound_mm;
+    const double reach = radius_mm_ + sag_mm_ + bound_mm;
     if (reach <= 0) return false;
     const Vec3 way{line_.across + line_.bend_x, line_.bend_y, 0}, from{point.x, point.y, 0};
     const double t = std::clamp(dot(from, way) / std::max(squared_length(way), 1e-300), 0.0, 1.0);

@@ -55,6 +55,7 @@ class UprightCurve {
     double radius_mm_ = 0;
     Frame frame_;
     UprightLine line_;
+    double sag_mm_ = 0;  // of the path across the axis beside its chord
 };
 
 }  // namespace tribo::milling
