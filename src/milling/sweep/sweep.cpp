@@ -63,7 +63,7 @@ ProfileNormal profile_normal(const ToolProfile& tool, double rho, double z) {
     return side >= under ? ProfileNormal{1, 0} : ProfileNormal{0, -1};
 }
 
-// The tool at one instant as seen from a point.
+// The tool at one instant as seen from a point: in stock coordinates, or in the frame of an upright travel.
 struct ToolView {
     Vec3 axis, radial;  // unit; radial is zero on the axis
     double rho, z, drho, dz;
@@ -81,6 +81,18 @@ ToolView view(const CurvedLine& c, Vec3 point, double t) {
     v.radial = normalized(radial, {0, 0, 0});
     v.dz = dot(d, axis_rate) - dot(velocity, v.axis);
     v.drho = -dot(v.radial, velocity) - v.z * dot(v.radial, axis_rate);
+    return v;
+}
+
+ToolView view(const UprightLine& line, Vec3 q, double t) {
+    const Vec3 across{q.x - t * (line.across + t * line.bend_x), q.y - t * t * line.bend_y, 0};
+    ToolView v;
+    v.axis = {0, 0, 1};
+    v.radial = normalized(across, {0, 0, 0});
+    v.rho = length(across);
+    v.z = q.z - t * line.rise;
+    v.drho = -dot(v.radial, {line.across + 2 * t * line.bend_x, 2 * t * line.bend_y, 0});
+    v.dz = -line.rise;
     return v;
 }
 
@@ -110,14 +122,7 @@ field::Shape::Slope straight_slope(const ToolProfile& tool, const StraightLine& 
     });
     const double cap = q.z - std::max(line.rise, 0.0) - tool.length_mm;
     if (cap > nearest.distance) return {cap, frame.z};
-    const Vec3 across{q.x - nearest.t * line.across, q.y, 0};
-    ToolView v;
-    v.axis = {0, 0, 1};
-    v.radial = normalized(across, {0, 0, 0});
-    v.rho = length(across);
-    v.z = q.z - nearest.t * line.rise;
-    v.drho = -v.radial.x * line.across;
-    v.dz = -line.rise;
+    const ToolView v = view(UprightLine{line.across, 0, 0, line.rise}, q, nearest.t);
     return {nearest.distance, frame.out_of(swept_normal(tool, v, nearest.t))};
 }
 
@@ -270,8 +275,10 @@ class CurvedSweep final : public field::Shape {
         const Vec3 d = point - start_;
         if (const auto near = upright_nearest(d)) {
             const double cap = upright_->lowest_mm(d) - tool_.length_mm;
-            if (cap > near->distance_mm) return {cap, axis_at(line_, 0)};
-            return {near->distance_mm, swept_normal(tool_, view(line_, d, near->t), near->t)};
+            const Frame& frame = upright_->frame();
+            if (cap > near->distance_mm) return {cap, frame.z};
+            const ToolView v = view(upright_->line(), frame.into(d), near->t);
+            return {near->distance_mm, frame.out_of(swept_normal(tool_, v, near->t))};
         }
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
