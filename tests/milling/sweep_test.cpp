@@ -4,6 +4,7 @@
 #include "milling/sweep/sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -424,6 +425,51 @@ RC_GTEST_PROP(Sweep, gradient_points_where_the_distance_grows, ()) {
     constexpr double kStep = 0.02;
     RC_ASSERT(sweep->distance_mm(*p + kStep * g) > -1e-9);
     RC_ASSERT(sweep->distance_mm(*p - kStep * g) < 1e-9);
+}
+
+// What feels a surface follows its normal: an error of a thousandth beside an edge is a livelock.
+RC_GTEST_PROP(Sweep, of_a_ball_has_the_normal_of_its_nearest_centre, ()) {
+    Cutter cutter = any_cutter();
+    cutter.kind = CutterKind::ball;
+    const Move move = any_curved(number(0.03, 1));
+    const CurvedLine line = curved_line(move);
+    const auto sweep = make_sweep(cutter, move);
+    const double r = cutter.radius_mm();
+    double height = 0;  // above the centre
+    const auto from_centre = [&](Vec3 p, double t) {
+        const Vec3 axis = normalized(line.axis0 + t * (line.axis1 + t * line.axis2));
+        const Vec3 d = p - move.start.tip_mm - t * (line.tip1 + t * line.tip2) - r * axis;
+        height = dot(d, axis);
+        return d - std::max(height, 0.0) * axis;
+    };
+    constexpr int kCount = 400;
+    for (int round = 0; round < 6; ++round) {
+        const auto p = surface_point(*sweep, cutter, move);
+        if (!p || !under_the_cap(cutter, move, *p)) continue;
+        const auto off = [&](double t) { return squared_length(from_centre(*p, t)); };
+        std::array<double, kCount + 1> seen;
+        for (int k = 0; k <= kCount; ++k)
+            seen[static_cast<std::size_t>(k)] = std::sqrt(off(k / double{kCount}));
+        const auto best = static_cast<double>(std::ranges::min_element(seen) - seen.begin());
+        // Of two instants that are as near either is right.
+        int valleys = 0;
+        for (std::size_t k = 0; k <= kCount; ++k) {
+            const bool is_low = (k == 0 || seen[k] <= seen[k - 1]) && (k == kCount || seen[k] <= seen[k + 1]);
+            if (is_low && seen[k] < *std::ranges::min_element(seen) + 1e-4) ++valleys;
+        }
+        if (valleys > 1) continue;
+        double low = std::max(0.0, (best - 1) / kCount), high = std::min(1.0, (best + 1) / kCount);
+        // By the sign of the rate: the least value itself hardly tells instants apart.
+        constexpr double kStep = 1e-5;
+        for (int n = 0; n < 60; ++n) {
+            const double t = 0.5 * (low + high);
+            (off(std::min(1.0, t + kStep)) > off(std::max(0.0, t - kStep)) ? high : low) = t;
+        }
+        const Vec3 normal = normalized(from_centre(*p, 0.5 * (low + high)));
+        // Where ball and shank meet, the rate of the slope jumps.
+        if (std::abs(height) < 0.02) continue;
+        RC_ASSERT(length(sweep->gradient(*p) - normal) < 2e-5);
+    }
 }
 
 // On the wall of a plunge all instants at which the tip is lower have the same distance: the side makes it,

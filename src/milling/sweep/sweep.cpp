@@ -284,8 +284,15 @@ class CurvedSweep final : public field::Shape {
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         const Least<double> least = nearest(floors, d, kNever);
         const double cap = static_cast<double>(floors.lowest) - tool_.length_mm;
-        if (cap <= least.distance)
-            return {least.distance, swept_normal(tool_, view(line_, d, least.t), least.t)};
+        if (cap <= least.distance) {
+            const Profile<double> p(tool_);
+            const double t =
+                by_kind(tool_.kind, [&]<CutterKind kind>() { return sharpened<kind>(p, line_, d, least.t); });
+            const ToolView v = view(line_, d, t);
+            const double distance = by_kind(
+                tool_.kind, [&]<CutterKind kind>() { return profile_distance<kind>(p, v.rho * v.rho, v.z); });
+            return {std::min(distance, least.distance), swept_normal(tool_, v, t)};
+        }
         double lowest = kNever;
         Vec3 top = line_.axis0;
         for (int k = 0; k < CurvedInstants::kCount; ++k) {
