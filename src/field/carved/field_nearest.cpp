@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "base/fixed_list.hpp"
 #include "field/carved/field_query.hpp"
 #include "field/carved/near_bricks.hpp"
 #include "field/carved/nearest_places.hpp"
@@ -461,13 +462,12 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     bool all_looked = true;
     // Start and end points of the searches, and places of the edges that they passed.
     constexpr std::size_t kMostPassed = 200;
-    SeenPlace seen[kMostPassed + 2 * kMostSearches + 2 + contact::NearHint::kMostOthers];
-    std::size_t count = 0;
+    FixedList<SeenPlace, kMostPassed + 2 * kMostSearches + 2 + contact::NearHint::kMostOthers> seen;
     ShownSurface shown(field_, p_);
     const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
         return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along, true};
     };
-    for (const contact::Foot& foot : found_.all()) seen[count++] = place_of(foot);
+    for (const contact::Foot& foot : found_.all()) seen.put(place_of(foot));
     contact::SurfaceSample nearest_box{within_mm_, {0, 0, 1}, 0};
     while (bricks_near.take(reach(), b, way)) {
         const BrickRef ref = field_.bricks.get(b);
@@ -478,7 +478,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
         ++hint_.searches;
         shown.look_at(b, reach());
         SeenPlace start;
-        for (int n = 0; shown.take(reach(), {seen, count}, start); ++n) {
+        for (int n = 0; shown.take(reach(), seen, start); ++n) {
             if (n == kMostStarts) {
                 all_looked = false;
                 break;
@@ -495,16 +495,16 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             const SeenPlace end = place_of(*foot);
             start.along = end.along;
             start.lasts_mm = std::min(start.lasts_mm, trail_.lasts_mm(p_));
-            seen[count++] = start;
-            seen[count++] = end;
+            seen.put(start);
+            seen.put(end);
             for (const contact::Trail::Place& passed : trail_.all()) {
-                if (count >= kMostPassed) break;
+                if (seen.size() >= kMostPassed) break;
                 SeenPlace on_way = end;
                 on_way.at = passed.at_mm;
                 on_way.along = passed.along;
                 on_way.normal = normalized(p_ - passed.at_mm, end.normal);
                 on_way.lasts_mm = dot(p_ - passed.at_mm, passed.along);
-                if (on_way.lasts_mm >= kComesNearer * distance(p_, passed.at_mm)) seen[count++] = on_way;
+                if (on_way.lasts_mm >= kComesNearer * distance(p_, passed.at_mm)) seen.put(on_way);
             }
         }
         if (searches > kMostSearches) {
@@ -521,8 +521,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             for (const contact::Foot& foot : found_.all().subspan(1))
                 hint_.other[static_cast<std::size_t>(hint_.others++)] = {foot.at_mm, foot.sides,
                                                                          foot.sample.distance_mm};
-            hint_.settled_mm =
-                shown.settled_mm(reach() - found_.distance_mm(), found_.distance_mm(), {seen, count});
+            hint_.settled_mm = shown.settled_mm(reach() - found_.distance_mm(), found_.distance_mm(), seen);
         }
         return found_.best();
     }

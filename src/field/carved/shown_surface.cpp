@@ -32,16 +32,18 @@ struct Differences {
 };
 
 Differences differences_at(const FieldQuery& field, const Brick& brick, int a, int b, int c) {
-    const auto at = [&](int node) { return field.at_node_mm(brick, node); };
+    constexpr int kMostBend = static_cast<int>(kEven * kStepsPerCell);
+    const double mm_per_step = field.cell_mm / kStepsPerCell;
+    const auto at = [&](int node) { return int{brick.steps[static_cast<std::size_t>(node)]}; };
     const int node = node_index(a, b, c);
     Differences result{{}, true};
     const auto along = [&](int n, int stride) {
         const int first = node - n * stride, low = first + std::max(n - 1, 0) * stride,
                   high = first + std::min(n + 1, kBrickCells) * stride,
                   middle = first + std::clamp(n, 1, kBrickCells - 1) * stride;
-        const double bend = at(middle - stride) - 2 * at(middle) + at(middle + stride);
-        result.even = result.even && std::abs(bend) < kEven * field.cell_mm;
-        return (at(high) - at(low)) * stride / (high - low);
+        const int bend = at(middle - stride) - 2 * at(middle) + at(middle + stride);
+        result.even = result.even && std::abs(bend) < kMostBend;
+        return (high - low == stride ? mm_per_step : 0.5 * mm_per_step) * (at(high) - at(low));
     };
     result.slope = {along(a, 1), along(b, kLatticeEdge), along(c, kLatticeEdge * kLatticeEdge)};
     return result;
@@ -59,7 +61,7 @@ bool is_alike(const SeenPlace& a, const SeenPlace& b, double per_cell) {
 }  // namespace
 
 void ShownSurface::look_at(BrickCoord where, double within_mm) {
-    count_ = 0;
+    here_.clear();
     const FieldQuery& field = *field_;
     const BrickRef ref = field.bricks.get(where);
     if (ref == kUntouched) {
@@ -82,16 +84,16 @@ void ShownSurface::look_at(BrickCoord where, double within_mm) {
     const auto high = [&](double at) {
         return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
     };
+    constexpr int kCloseSteps = static_cast<int>(kClose * static_cast<double>(kStepsPerCell));
     for (int c = low(q.z); c <= high(q.z); ++c) {
         for (int b = low(q.y); b <= high(q.y); ++b) {
             const double yz = (b - q.y) * (b - q.y) + (c - q.z) * (c - q.z);
             if (yz * cell_mm * cell_mm >= most_row * most_row) continue;
             for (int a = low(q.x); a <= high(q.x); ++a) {
-                const double d = field.at_node_mm(brick, node_index(a, b, c));
-                const double far = most + std::abs(d);
-                if (std::abs(d) > kClose * cell_mm ||
-                    (yz + (a - q.x) * (a - q.x)) * cell_mm * cell_mm >= far * far)
-                    continue;
+                const int node = node_index(a, b, c);
+                if (std::abs(int{brick.steps[static_cast<std::size_t>(node)]}) > kCloseSteps) continue;
+                const double far = most + std::abs(field.at_node_mm(brick, node));
+                if ((yz + (a - q.x) * (a - q.x)) * cell_mm * cell_mm >= far * far) continue;
                 ShownPlace one;
                 if (see(where, a, b, c, one) && !none_nearer(one.place, within_mm)) put(one);
             }
@@ -100,8 +102,8 @@ void ShownSurface::look_at(BrickCoord where, double within_mm) {
 }
 
 void ShownSurface::put(const ShownPlace& one) {
-    if (count_ < here_.size()) {
-        here_[count_++] = one;
+    if (!here_.is_full()) {
+        here_.put(one);
         return;
     }
     whole_ = false;
@@ -145,9 +147,18 @@ Vec3 ShownSurface::normal_at(BrickCoord brick, int index, ShapeId shape, Vec3 no
     constexpr unsigned kSpread = 37;
     const unsigned at =
         static_cast<unsigned>(index) + kSpread * static_cast<unsigned>(brick.i + 3 * brick.j + 9 * brick.k);
-    KnownNormal& known = known_[at % known_.size()];
-    if (known.index != index || !(known.brick == brick)) known = {brick, index, field_->outward(shape, node)};
-    return known.normal;
+    std::uint8_t& number = known_at_[at % known_at_.size()];
+    if (number != 0) {
+        KnownNormal& known = known_[number - 1U];
+        if (known.index != index || !(known.brick == brick))
+            known = {brick, index, field_->outward(shape, node)};
+        return known.normal;
+    }
+    const Vec3 normal = field_->outward(shape, node);
+    if (known_.is_full()) return normal;
+    known_.put({brick, index, normal});
+    number = static_cast<std::uint8_t>(known_.size());
+    return normal;
 }
 
 // The part of the way from a place to the point that is along the surface there. Over narrow grooves the grid
@@ -231,16 +242,13 @@ bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const
 }
 
 bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place) {
-    while (count_ > 0) {
-        ShownPlace& nearest =
-            *std::ranges::min_element(std::span(here_.data(), count_), {}, &ShownPlace::way_mm);
-        const ShownPlace one = nearest;
-        nearest = here_[--count_];
+    while (here_.size() > 0) {
+        const ShownPlace one = here_.take(*std::ranges::min_element(here_, {}, &ShownPlace::way_mm));
         if (none_nearer(one.place, within_mm)) continue;
-        if (passed_count_ < passed_.size())
-            passed_[passed_count_++] = one;
-        else
+        if (passed_.is_full())
             whole_ = false;
+        else
+            passed_.put(one);
         const bool is_seen = std::any_of(but.begin(), but.end(),
                                          [&](const SeenPlace& other) { return leads_to(one.place, other); });
         if (is_seen || comes_nearer(one)) continue;
@@ -252,7 +260,7 @@ bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPl
 
 double ShownSurface::settled_mm(double most_mm, double nearest_mm, std::span<const SeenPlace> seen) const {
     double settled = most_mm;
-    for (const ShownPlace& one : std::span(passed_.data(), passed_count_)) {
+    for (const ShownPlace& one : passed_) {
         const double nearer_mm = 0.5 * (one.way_mm - nearest_mm);
         if (nearer_mm >= settled) continue;
         double way_mm = std::max(nearer_mm, steepest_fall_mm(one));

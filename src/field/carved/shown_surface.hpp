@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "base/fixed_list.hpp"
 #include "field/carved/field_query.hpp"
 
 namespace tribo::field {
@@ -66,15 +67,16 @@ class ShownSurface {
 
     const FieldQuery* field_;
     Vec3 point_;
-    std::array<ShownPlace, 192> here_;    // of the last brick, not taken yet
-    std::array<ShownPlace, 384> passed_;  // taken or passed over
+    FixedList<ShownPlace, 192> here_;    // of the last brick, not taken yet
+    FixedList<ShownPlace, 384> passed_;  // taken or passed over
     struct KnownNormal {
         BrickCoord brick;
-        int index = -1;
+        int index;
         Vec3 normal;
     };
-    mutable std::array<KnownNormal, 256> known_;
-    std::size_t count_ = 0, passed_count_ = 0;
+    // Some of the normals that shapes have told, and the number of each by its place in the grid, from 1 on.
+    mutable FixedList<KnownNormal, 255> known_;
+    mutable std::array<std::uint8_t, 256> known_at_{};
     bool whole_ = true;
 };
 
