@@ -37,7 +37,7 @@ std::optional<SurfaceSample> land(const DistanceField& field, Vec3& q) {
     for (int n = 0; n < kMostLandings; ++n) {
         const SurfaceSample s = field.sample(q);
         if (std::abs(s.distance_mm) <= kOnSurface) return s;
-        q -= s.distance_mm * s.normal;
+        q -= s.depth_mm() * s.normal;
     }
     return std::nullopt;
 }
@@ -118,7 +118,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
                         side.beside = sides.side[edge.sides[index == edge.sides[0] ? 1 : 0]].piece;
                     }
                     side.normal = t.normal;
-                    side.offset = dot(t.normal, q) - t.distance_mm;
+                    side.offset = dot(t.normal, q) - t.depth_mm();
                 }
             }
             above_mm = std::max(above_mm, side.above(q));
@@ -129,6 +129,8 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
         };
         Vec3 next = sides.nearest(point_mm);
         const bool held = !ask && std::abs(above_mm) <= kOnSurface && is_still(next);
+        // The known pieces do not hold the point: no further round would move it.
+        if (!ask && !held && next == q) break;
         // A piece that is not known yet only takes material away. A place that is still on the surface stays
         // the nearest one.
         if (held && distance(point_mm, next) > kOnSurface && std::abs(field.distance_mm(q)) <= kOnSurface)
@@ -142,7 +144,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
                 trail->put({q, edge_of(sides.side[edge.sides[0]], sides.side[edge.sides[1]])});
             if (!is_known) {
                 const int known = sides.count;
-                sides.put({s.normal, dot(s.normal, q) - s.distance_mm, s.piece}, kAlike);
+                sides.put({s.normal, dot(s.normal, q) - s.depth_mm(), s.piece}, kAlike);
                 // A step into the air beyond an edge has passed it: first back to the edge.
                 const bool passed = n > 0 && sides.count > known && s.distance_mm > kUnsure;
                 next = sides.nearest(passed ? before : point_mm);
@@ -210,8 +212,8 @@ struct Edge {
             const Vec3 way = normalized(cross(a.normal, b.normal));
             if (std::abs(a.distance_mm) <= kOnBoth && std::abs(b.distance_mm) <= kOnBoth)
                 return Place{q, dot(way, along) < 0 ? -1 * way : way, {a.normal, b.normal}};
-            q -= ((a.distance_mm - c * b.distance_mm) * a.normal +
-                  (b.distance_mm - c * a.distance_mm) * b.normal) /
+            q -= ((a.depth_mm() - c * b.depth_mm()) * a.normal +
+                  (b.depth_mm() - c * a.depth_mm()) * b.normal) /
                  sine2;
         }
         return std::nullopt;

@@ -44,8 +44,8 @@ contact::SurfaceSample FieldQuery::sample_in(BrickRef ref, Vec3 p) const {
     for (std::size_t n = 0; n < brick.shapes.size(); ++n) {
         if (n != likely) deepen(best, brick.shapes[n], p);
     }
-    if (best.shape == first.piece) return {best.distance_mm, first.normal, first.piece};
-    return {best.distance_mm, outward(best.shape, p), best.shape};
+    const contact::SurfaceSample deepest = best.shape == first.piece ? first : sample_piece(best.shape, p);
+    return {best.distance_mm, deepest.normal, best.shape, deepest.steepness};
 }
 
 double FieldQuery::distance_mm(Vec3 p) const {

@@ -96,18 +96,27 @@ ToolView view(const UprightLine& line, Vec3 q, double t) {
     return v;
 }
 
-// Returns the outward normal of the volume where the tool touches it at the instant t. Where side and bottom
-// of a flat cutter meet, the edge makes the surface: its normal is perpendicular to the travel of the edge,
-// between the two normals. In a plunge that is the side, in a level move the bottom.
-Vec3 swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
+// The outward normal of a swept volume, and the growth of the distance along it (field::Shape::Slope).
+struct SweptNormal {
+    Vec3 normal;
+    double steepness = 1;
+};
+
+// Returns the normal where the tool touches the volume at the instant t. Where side and bottom of a flat
+// cutter meet, the edge makes the surface: its normal is perpendicular to the travel of the edge, between the
+// two normals. In a plunge that is the side, in a level move the bottom. There the distance is the larger one
+// of two that both grow by 1, of which the instant takes a share each.
+SweptNormal swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
     constexpr double kEdge = 1e-5;  // mm; many times the accuracy of the search
     if (tool.kind == CutterKind::flat && t > 0 && t < 1 && v.drho * v.dz >= 0 && (v.drho != 0 || v.dz != 0) &&
         std::abs(v.rho - tool.radius_mm + v.z) < kEdge) {
         const double side = std::abs(v.dz), bottom = std::abs(v.drho);
-        return normalized(side * v.radial - bottom * v.axis);
+        const Vec3 gradient = (side * v.radial - bottom * v.axis) / (side + bottom);
+        const double steepness = length(gradient);
+        return {gradient / steepness, steepness};
     }
     const ProfileNormal n = profile_normal(tool, v.rho, v.z);
-    return normalized(n.by_rho * v.radial + n.by_z * v.axis, -v.axis);
+    return {normalized(n.by_rho * v.radial + n.by_z * v.axis, -v.axis)};
 }
 
 // Distance and gradient of a straight sweep at a point (x, y, z) of its frame.
@@ -123,7 +132,8 @@ field::Shape::Slope straight_slope(const ToolProfile& tool, const StraightLine& 
     const double cap = q.z - std::max(line.rise, 0.0) - tool.length_mm;
     if (cap > nearest.distance) return {cap, frame.z};
     const ToolView v = view(UprightLine{line.across, 0, 0, line.rise}, q, nearest.t);
-    return {nearest.distance, frame.out_of(swept_normal(tool, v, nearest.t))};
+    const SweptNormal n = swept_normal(tool, v, nearest.t);
+    return {nearest.distance, frame.out_of(n.normal), n.steepness};
 }
 
 // Returns the distance at a point (x, y, z) of the frame if it is below `bound`, else `bound`.
@@ -278,7 +288,8 @@ class CurvedSweep final : public field::Shape {
             const Frame& frame = upright_->frame();
             if (cap > near->distance_mm) return {cap, frame.z};
             const ToolView v = view(upright_->line(), frame.into(d), near->t);
-            return {near->distance_mm, frame.out_of(swept_normal(tool_, v, near->t))};
+            const SweptNormal n = swept_normal(tool_, v, near->t);
+            return {near->distance_mm, frame.out_of(n.normal), n.steepness};
         }
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
@@ -291,7 +302,8 @@ class CurvedSweep final : public field::Shape {
             const ToolView v = view(line_, d, t);
             const double distance = by_kind(
                 tool_.kind, [&]<CutterKind kind>() { return profile_distance<kind>(p, v.rho * v.rho, v.z); });
-            return {std::min(distance, least.distance), swept_normal(tool_, v, t)};
+            const SweptNormal n = swept_normal(tool_, v, t);
+            return {std::min(distance, least.distance), n.normal, n.steepness};
         }
         double lowest = kNever;
         Vec3 top = line_.axis0;

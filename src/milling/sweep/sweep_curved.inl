@@ -253,22 +253,36 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
 // normal is off by a thousandth. The slope tells: one step towards where it is zero, and one of the secant.
 template <CutterKind kind>
 double sharpened(const Profile<double>& p, const CurvedLine& c, Vec3 point, double t) {
-    const Instant<double> found = curved_instant<kind>(p, c, point, t);
+    const auto at = [&](double when) { return curved_instant<kind>(p, c, point, when); };
+    const Instant<double> found = at(t);
     const bool is_end = (t <= 0 && found.slope >= 0) || (t >= 1 && found.slope <= 0);
     if (is_end || found.slope == 0) return t;
-    // Of the slope beside a round side, on a path without bend. The slope ends after a fall of no more than
-    // kSettled.
-    const double growth = found.gap > 0 ? found.way_squared / (found.distance + p.R) : 0;
+    // The slope ends after a fall of no more than kSettled.
     const double most = 2 * kSettled<double> / std::abs(found.slope);
+    if constexpr (kind == CutterKind::flat) {
+        // At the edge, where the side comes nearer as the bottom leaves, or the bottom as the side does.
+        constexpr double kOnEdge = 1e-6;  // mm
+        const bool has_edge = found.drho * found.dz > 0;
+        if (has_edge && std::abs(found.gap) < kOnEdge) return t;
+        const double to_edge = -found.gap / (found.drho + found.dz);
+        if (has_edge && std::abs(to_edge) < most && to_edge * found.slope < 0) {
+            const Instant<double> near = at(t + to_edge);
+            const double edge = std::clamp(t + to_edge - near.gap / (near.drho + near.dz), 0.0, 1.0);
+            if (at(edge).distance <= found.distance) return edge;
+        }
+    }
+    // Of the slope beside a round side, on a path without bend.
+    const double growth = found.gap > 0 ? found.way_squared / (found.distance + p.R) : 0;
     const double size = growth > 0 ? std::min(std::abs(found.slope) / growth, most) : most;
     const double next = std::clamp(found.slope < 0 ? t + size : t - size, 0.0, 1.0);
-    const Instant<double> there = curved_instant<kind>(p, c, point, next);
+    const Instant<double> there = at(next);
     const double change = there.slope - found.slope;
     if (!(found.gap * there.gap > 0) || !(change * (next - t) > 0)) return t;
     const double sharp = std::clamp(next - there.slope * (next - t) / change, 0.0, 1.0);
-    const bool is_sure = std::abs(there.slope) < 0.5 * std::abs(found.slope) ||
-                         std::abs(curved_instant<kind>(p, c, point, sharp).slope) < std::abs(found.slope);
-    return is_sure ? sharp : t;
+    if (kind == CutterKind::ball && std::abs(there.slope) < 0.5 * std::abs(found.slope)) return sharp;
+    const Instant<double> last = at(sharp);
+    const bool is_lower = found.gap * last.gap > 0 && last.distance <= found.distance;
+    return is_lower && std::abs(last.slope) < std::abs(found.slope) ? sharp : t;
 }
 
 // The coordinates of points in the tool's frame at one instant, x and y across the axis: their gradient by
