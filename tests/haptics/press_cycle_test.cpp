@@ -212,11 +212,13 @@ class Ride : public Hand {
     Ride(const Slots& slots, std::uint64_t seed) : Hand(slots, seed, kRadii) {}
     Found run() {
         begin({between(-8, 8), between(-3, 3), radius_ + 2});
-        go({at_.x, at_.y, radius_ - between(0.1, 1.5)}, between(100, 2000));
+        // One draw after the other: compilers evaluate the arguments of a call in different orders.
+        const Vec3 down{at_.x, at_.y, radius_ - between(0.1, 1.5)};
+        go(down, between(100, 2000));
         for (int legs = 1 + choice(3); legs > 0; --legs) {
-            go({std::clamp(at_.x + between(-2, 2), -9.0, 9.0), std::clamp(at_.y + between(-4, 4), -4.0, 4.0),
-                radius_ - between(0.05, 1.5)},
-               between(300, 2000));
+            const Vec3 to{std::clamp(at_.x + between(-2, 2), -9.0, 9.0),
+                          std::clamp(at_.y + between(-4, 4), -4.0, 4.0), radius_ - between(0.05, 1.5)};
+            go(to, between(300, 2000));
         }
         // A centre in material has to come out of it and be a radius away.
         const double deep = depth_in_stock(at_);
@@ -261,10 +263,10 @@ TEST(PressCycle, no_rib_is_lost_and_no_air_pushes) {
     expect_none<Press>(1000, 0);
 }
 
-// A ball that is exactly as wide as a slot is held now by one edge of it, now by the other: 7 kicks in 4,000
-// cycles, of which 6 are of such balls.
+// A ball that is exactly as wide as a slot is held now by one edge of it, now by the other: 9 kicks in 4,000
+// cycles, nearly all of such balls.
 TEST(PressCycle, no_edge_catches_a_probe_that_rides_over_it) {
-    expect_none<Ride>(300, 0.005);
+    expect_none<Ride>(1500, 0.005);
 }
 
 // Cycles that failed in five-axis slots. In a corner of bent sides the proxy came to stand up to 1 um in
