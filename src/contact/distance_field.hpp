@@ -18,10 +18,10 @@ struct SurfaceSample {
     double distance_mm = 0;   // negative in material
     Vec3 normal{0, 0, 1};     // unit, out of the material
     std::uint32_t piece = 0;  // the smooth part of the surface that gave the result, if the field knows it
-    double steepness = 1;     // growth of distance_mm per mm along the normal; at most 1
+    float way_per_mm = 1;     // along the normal per mm that the distance grows; at least 1
 
     // To the surface along the normal, as far as the surface is flat.
-    double depth_mm() const { return distance_mm / steepness; }
+    double depth_mm() const { return distance_mm * static_cast<double>(way_per_mm); }
 };
 
 // Places of edges that a search has passed on its way to the nearest one, in the order of the way: the first

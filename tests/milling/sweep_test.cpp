@@ -438,7 +438,8 @@ RC_GTEST_PROP(Sweep, tells_how_fast_the_distance_grows_along_the_gradient, ()) {
     constexpr double kStep = 2e-3;
     const auto at = [&](double way) { return sweep->distance_mm(*p + way * slope.gradient); };
     const double here = at(0), up = (at(kStep) - here) / kStep, down = (here - at(-kStep)) / kStep;
-    if (std::abs(up - down) < 0.01) RC_ASSERT(std::abs(0.5 * (up + down) - slope.steepness) < 0.015);
+    if (std::abs(up - down) < 0.01)
+        RC_ASSERT(std::abs(0.5 * (up + down) - 1 / static_cast<double>(slope.way_per_mm)) < 0.015);
 }
 
 // What feels a surface follows its normal: an error of a thousandth beside an edge is a livelock.

@@ -45,7 +45,7 @@ contact::SurfaceSample FieldQuery::sample_in(BrickRef ref, Vec3 p) const {
         if (n != likely) deepen(best, brick.shapes[n], p);
     }
     const contact::SurfaceSample deepest = best.shape == first.piece ? first : sample_piece(best.shape, p);
-    return {best.distance_mm, deepest.normal, best.shape, deepest.steepness};
+    return {best.distance_mm, deepest.normal, best.shape, deepest.way_per_mm};
 }
 
 double FieldQuery::distance_mm(Vec3 p) const {

@@ -95,8 +95,8 @@ struct FieldQuery {
     contact::SurfaceSample sample(Vec3 point_mm) const;
     contact::SurfaceSample sample_piece(ShapeId id, Vec3 point_mm) const {
         const Shape::Slope s = shape(id).slope(point_mm);
-        if (id == 0) return {s.distance_mm, s.gradient, id, s.steepness};
-        return {-s.distance_mm, -s.gradient, id, s.steepness};
+        if (id == 0) return {s.distance_mm, s.gradient, id, s.way_per_mm};
+        return {-s.distance_mm, -s.gradient, id, s.way_per_mm};
     }
     double clearance_mm(Vec3 point_mm, double enough_mm) const;
     // The normal of the material at or near the surface of a shape.

@@ -39,12 +39,12 @@ class Shape {
     virtual bool is_searched() const { return false; }
     // Unit direction in which distance_mm grows fastest.
     virtual Vec3 gradient(Vec3 point_mm) const = 0;
-    // Both of them: cheaper if they share a search. The distance grows by `steepness` per mm along the
-    // gradient: by less than 1 where it is mitred, as it is below the edge of a flat cutter on its way.
+    // Both of them: cheaper if they share a search. Along the gradient the distance grows by 1 mm per
+    // `way_per_mm`: per more than 1 where it is mitred, as it is below the edge of a flat cutter on its way.
     struct Slope {
         double distance_mm;
         Vec3 gradient;
-        double steepness = 1;
+        float way_per_mm = 1;
     };
     virtual Slope slope(Vec3 point_mm) const { return {distance_mm(point_mm), gradient(point_mm)}; }
     // True if the solid meets each line along this unit direction in one piece.

@@ -84,22 +84,26 @@ ToolView view(const CurvedLine& c, Vec3 point, double t) {
     return v;
 }
 
+// From the axis of the tool across to a point.
+Vec3 across(const UprightLine& line, Vec3 q, double t) {
+    return {q.x - t * (line.across + t * line.bend_x), q.y - t * t * line.bend_y, 0};
+}
 ToolView view(const UprightLine& line, Vec3 q, double t) {
-    const Vec3 across{q.x - t * (line.across + t * line.bend_x), q.y - t * t * line.bend_y, 0};
+    const Vec3 off = across(line, q, t);
     ToolView v;
     v.axis = {0, 0, 1};
-    v.radial = normalized(across, {0, 0, 0});
-    v.rho = length(across);
+    v.radial = normalized(off, {0, 0, 0});
+    v.rho = length(off);
     v.z = q.z - t * line.rise;
     v.drho = -dot(v.radial, {line.across + 2 * t * line.bend_x, 2 * t * line.bend_y, 0});
     v.dz = -line.rise;
     return v;
 }
 
-// The outward normal of a swept volume, and the growth of the distance along it (field::Shape::Slope).
+// The outward normal of a swept volume, and the way along it per distance (field::Shape::Slope).
 struct SweptNormal {
     Vec3 normal;
-    double steepness = 1;
+    float way_per_mm = 1;
 };
 
 // Returns the normal where the tool touches the volume at the instant t. Where side and bottom of a flat
@@ -112,11 +116,20 @@ SweptNormal swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
         std::abs(v.rho - tool.radius_mm + v.z) < kEdge) {
         const double side = std::abs(v.dz), bottom = std::abs(v.drho);
         const Vec3 gradient = (side * v.radial - bottom * v.axis) / (side + bottom);
-        const double steepness = length(gradient);
-        return {gradient / steepness, steepness};
+        const double way_per_mm = 1 / length(gradient);
+        return {way_per_mm * gradient, static_cast<float>(way_per_mm)};
     }
     const ProfileNormal n = profile_normal(tool, v.rho, v.z);
     return {normalized(n.by_rho * v.radial + n.by_z * v.axis, -v.axis)};
+}
+
+// The same of an upright travel, in its frame. Of a ball it points away from the centre, or from the place of
+// the axis above it that is as high as the point.
+SweptNormal swept_normal(const ToolProfile& tool, const UprightLine& line, Vec3 q, double t) {
+    if (tool.kind != CutterKind::ball) return swept_normal(tool, view(line, q, t), t);
+    const Vec3 off = across(line, q, t);
+    const double below = std::min(q.z - t * line.rise - tool.radius_mm, 0.0);
+    return {normalized({off.x, off.y, below}, {0, 0, -1})};
 }
 
 // Distance and gradient of a straight sweep at a point (x, y, z) of its frame.
@@ -131,9 +144,8 @@ field::Shape::Slope straight_slope(const ToolProfile& tool, const StraightLine& 
     });
     const double cap = q.z - std::max(line.rise, 0.0) - tool.length_mm;
     if (cap > nearest.distance) return {cap, frame.z};
-    const ToolView v = view(UprightLine{line.across, 0, 0, line.rise}, q, nearest.t);
-    const SweptNormal n = swept_normal(tool, v, nearest.t);
-    return {nearest.distance, frame.out_of(n.normal), n.steepness};
+    const SweptNormal n = swept_normal(tool, UprightLine{line.across, 0, 0, line.rise}, q, nearest.t);
+    return {nearest.distance, frame.out_of(n.normal), n.way_per_mm};
 }
 
 // Returns the distance at a point (x, y, z) of the frame if it is below `bound`, else `bound`.
@@ -287,9 +299,8 @@ class CurvedSweep final : public field::Shape {
             const double cap = upright_->lowest_mm(d) - tool_.length_mm;
             const Frame& frame = upright_->frame();
             if (cap > near->distance_mm) return {cap, frame.z};
-            const ToolView v = view(upright_->line(), frame.into(d), near->t);
-            const SweptNormal n = swept_normal(tool_, v, near->t);
-            return {near->distance_mm, frame.out_of(n.normal), n.steepness};
+            const SweptNormal n = swept_normal(tool_, upright_->line(), frame.into(d), near->t);
+            return {near->distance_mm, frame.out_of(n.normal), n.way_per_mm};
         }
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
@@ -303,7 +314,7 @@ class CurvedSweep final : public field::Shape {
             const double distance = by_kind(
                 tool_.kind, [&]<CutterKind kind>() { return profile_distance<kind>(p, v.rho * v.rho, v.z); });
             const SweptNormal n = swept_normal(tool_, v, t);
-            return {std::min(distance, least.distance), n.normal, n.steepness};
+            return {std::min(distance, least.distance), n.normal, n.way_per_mm};
         }
         double lowest = kNever;
         Vec3 top = line_.axis0;
