@@ -6,14 +6,13 @@
 #include <cassert>
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <type_traits>
 
 namespace tribo {
 
 template <class T, std::size_t kMost>
 class FixedList {
-    static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+    static_assert(std::is_trivially_copyable_v<T>);
 
   public:
     FixedList() {}  // not "= default": the elements have no value yet

@@ -37,7 +37,7 @@ std::optional<SurfaceSample> land(const DistanceField& field, Vec3& q) {
     for (int n = 0; n < kMostLandings; ++n) {
         const SurfaceSample s = field.sample(q);
         if (std::abs(s.distance_mm) <= kOnSurface) return s;
-        q -= s.depth_mm() * s.normal;
+        q -= s.way_mm() * s.normal;
     }
     return std::nullopt;
 }
@@ -118,7 +118,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
                         side.beside = sides.side[edge.sides[index == edge.sides[0] ? 1 : 0]].piece;
                     }
                     side.normal = t.normal;
-                    side.offset = dot(t.normal, q) - t.depth_mm();
+                    side.offset = dot(t.normal, q) - t.way_mm();
                 }
             }
             above_mm = std::max(above_mm, side.above(q));
@@ -144,7 +144,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
                 trail->put({q, edge_of(sides.side[edge.sides[0]], sides.side[edge.sides[1]])});
             if (!is_known) {
                 const int known = sides.count;
-                sides.put({s.normal, dot(s.normal, q) - s.depth_mm(), s.piece}, kAlike);
+                sides.put({s.normal, dot(s.normal, q) - s.way_mm(), s.piece}, kAlike);
                 // A step into the air beyond an edge has passed it: first back to the edge.
                 const bool passed = n > 0 && sides.count > known && s.distance_mm > kUnsure;
                 next = sides.nearest(passed ? before : point_mm);
@@ -212,9 +212,8 @@ struct Edge {
             const Vec3 way = normalized(cross(a.normal, b.normal));
             if (std::abs(a.distance_mm) <= kOnBoth && std::abs(b.distance_mm) <= kOnBoth)
                 return Place{q, dot(way, along) < 0 ? -1 * way : way, {a.normal, b.normal}};
-            q -= ((a.depth_mm() - c * b.depth_mm()) * a.normal +
-                  (b.depth_mm() - c * a.depth_mm()) * b.normal) /
-                 sine2;
+            q -=
+                ((a.way_mm() - c * b.way_mm()) * a.normal + (b.way_mm() - c * a.way_mm()) * b.normal) / sine2;
         }
         return std::nullopt;
     }

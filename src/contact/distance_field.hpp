@@ -21,7 +21,7 @@ struct SurfaceSample {
     float way_per_mm = 1;     // along the normal per mm that the distance grows; at least 1
 
     // To the surface along the normal, as far as the surface is flat.
-    double depth_mm() const { return distance_mm * static_cast<double>(way_per_mm); }
+    double way_mm() const { return distance_mm * static_cast<double>(way_per_mm); }
 };
 
 // Places of edges that a search has passed on its way to the nearest one, in the order of the way: the first

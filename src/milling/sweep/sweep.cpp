@@ -85,11 +85,11 @@ ToolView view(const CurvedLine& c, Vec3 point, double t) {
 }
 
 // From the axis of the tool across to a point.
-Vec3 across(const UprightLine& line, Vec3 q, double t) {
+Vec3 from_axis(const UprightLine& line, Vec3 q, double t) {
     return {q.x - t * (line.across + t * line.bend_x), q.y - t * t * line.bend_y, 0};
 }
 ToolView view(const UprightLine& line, Vec3 q, double t) {
-    const Vec3 off = across(line, q, t);
+    const Vec3 off = from_axis(line, q, t);
     ToolView v;
     v.axis = {0, 0, 1};
     v.radial = normalized(off, {0, 0, 0});
@@ -127,7 +127,7 @@ SweptNormal swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
 // the axis above it that is as high as the point.
 SweptNormal swept_normal(const ToolProfile& tool, const UprightLine& line, Vec3 q, double t) {
     if (tool.kind != CutterKind::ball) return swept_normal(tool, view(line, q, t), t);
-    const Vec3 off = across(line, q, t);
+    const Vec3 off = from_axis(line, q, t);
     const double below = std::min(q.z - t * line.rise - tool.radius_mm, 0.0);
     return {normalized({off.x, off.y, below}, {0, 0, -1})};
 }
@@ -307,14 +307,14 @@ class CurvedSweep final : public field::Shape {
         const Least<double> least = nearest(floors, d, kNever);
         const double cap = static_cast<double>(floors.lowest) - tool_.length_mm;
         if (cap <= least.distance) {
-            const Profile<double> p(tool_);
-            const double t =
-                by_kind(tool_.kind, [&]<CutterKind kind>() { return sharpened<kind>(p, line_, d, least.t); });
-            const ToolView v = view(line_, d, t);
-            const double distance = by_kind(
-                tool_.kind, [&]<CutterKind kind>() { return profile_distance<kind>(p, v.rho * v.rho, v.z); });
-            const SweptNormal n = swept_normal(tool_, v, t);
-            return {std::min(distance, least.distance), n.normal, n.way_per_mm};
+            return by_kind(tool_.kind, [&]<CutterKind kind>() -> Slope {
+                const Profile<double> p(tool_);
+                const double t = sharpened<kind>(p, line_, d, least.t);
+                const ToolView v = view(line_, d, t);
+                const SweptNormal n = swept_normal(tool_, v, t);
+                const double distance = profile_distance<kind>(p, v.rho * v.rho, v.z);
+                return {std::min(distance, least.distance), n.normal, n.way_per_mm};
+            });
         }
         double lowest = kNever;
         Vec3 top = line_.axis0;

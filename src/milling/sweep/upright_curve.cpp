@@ -90,7 +90,7 @@ UprightCurve::Nearest UprightCurve::nearest_of_flat(Vec3 point) const {
                              [&](double at) { return std::pair{rate.at(at), rate.slope(at)}; });
     const double beside = side(t);
     if (beside >= bottom(t) || line_.rise == 0) return {std::max(beside, bottom(t)), t};
-    // Below the bottom: the tool comes nearer where it is higher, as far as its edge.
+    // Below the bottom: the tool comes nearer where it is lower, as far as its edge.
     const double end = line_.rise > 0 ? 0 : 1;
     if (side(end) <= bottom(end)) return {bottom(end), end};
     double in = t, out = end, at = end;

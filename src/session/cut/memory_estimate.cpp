@@ -18,8 +18,7 @@
 namespace tribo::session {
 namespace {
 
-// A brick has its own nodes if the distance of the surface is less than Brick::kNearCells; in brick
-// edges.
+// A brick has its own nodes if the distance of the surface is less than Brick::kNearCells; in brick edges.
 constexpr double kNearEdges = static_cast<double>(field::Brick::kNearCells) / field::kBrickCells;
 // A brick is air if no node is nearer to the material; in brick edges.
 constexpr double kClearEdges = field::FieldQuery::kClearCells / field::kBrickCells;
