@@ -136,6 +136,10 @@ class Hand {
         ++found_.ticks;
         EXPECT_LE(contact_.queries(), FieldContact::kMostQueries);
         if (dot(c.force_n, c.proxy_mm - probe) < -1e-12) ++found_.inward;
+        // What has not settled never kicks.
+        if (!c.settled) {
+            EXPECT_LE(length(c.force_n), length(force_) + kStiffness * distance(probe, last_) + 1e-12);
+        }
         const double way = distance(probe, last_) * (1 + friction_) * 1.05 + 4e-3;
         if (length(c.force_n) > length(force_) + kStiffness * way) ++found_.kicks;
         force_ = c.force_n;
@@ -263,8 +267,8 @@ TEST(PressCycle, no_rib_is_lost_and_no_air_pushes) {
     expect_none<Press>(1000, 0);
 }
 
-// A ball that is exactly as wide as a slot is held now by one edge of it, now by the other: 9 kicks in 4,000
-// cycles, nearly all of such balls.
+// A ball that is exactly as wide as a slot is held now by one edge of it, now by the other: 3 kicks in 3,000
+// cycles, as such balls settle.
 TEST(PressCycle, no_edge_catches_a_probe_that_rides_over_it) {
     expect_none<Ride>(1500, 0.005);
 }

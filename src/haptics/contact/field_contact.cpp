@@ -40,7 +40,7 @@ constexpr int kMostLandings = 3;
 constexpr int kMostPushes = 8;
 // A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
 // the probe is in air.
-constexpr double kCreeping = 0.02, kStuckS = 3e-3;
+constexpr double kCreeping = 0.1, kStuckS = 3e-3;
 
 contact::HalfSpace side_of(Vec3 normal) {
     return {-normal, 0, 0};
@@ -76,17 +76,21 @@ ProbeContact FieldContact::update(Vec3 probe, std::span<const Vec3> balls_mm) no
     // What was free for the probe as it was turned is so for the turned one less what that moved.
     const double turned_mm = gap_.set_balls(balls_mm);
     anchor_.radius -= turned_mm;
-    return tick(probe, turned_mm > 0);
+    return tick(probe, turned_mm);
 }
 
-ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
+ProbeContact FieldContact::tick(Vec3 probe, double turned_mm) noexcept {
     queries_ = 0;
+    searches_before_ = gap_.searches();
     if (!is_finite(probe)) return {};
     if (phase_ == Phase::begin) {
         at_.proxy = probe;
         sticking_ = true;
         phase_ = Phase::climb;
+        last_probe_ = probe;
+        last_force_n_ = 0;
     }
+    const bool turned = turned_mm > 0;
     last_proxy_ = at_.proxy;
     settled_ = braced_ = moved_ = looked_ = false;
     side_step_.interrupt();
@@ -97,8 +101,7 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
     if (turned && phase_ == Phase::touching) (void)push_out();
     // The anchor of a ball that slides has no room of its own.
     if (phase_ == Phase::touching && (turned || gap_.radius_mm() == 0)) renew_anchor();
-    const long most = gap_.searches() + kMostSearches;
-    for (Next next = Next::more; next == Next::more && budget(kStepQueries) && gap_.searches() < most;) {
+    for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
         switch (phase_) {
             case Phase::begin:
             case Phase::climb:
@@ -117,7 +120,13 @@ ProbeContact FieldContact::tick(Vec3 probe, bool turned) noexcept {
                        distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe);
     stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
-    return answer(probe);
+    ProbeContact c = answer(probe);
+    const double force_n = length(c.force_n), moved_mm = distance(probe, last_probe_) + turned_mm,
+                 most_n = last_force_n_ + options_.stiffness_n_per_mm * moved_mm;
+    if (!settled_ && force_n > most_n) c.force_n = (most_n / force_n) * c.force_n;
+    last_force_n_ = length(c.force_n);
+    last_probe_ = probe;
+    return c;
 }
 
 // Whether two sides hold the proxy from both sides.
@@ -499,7 +508,8 @@ ProbeContact FieldContact::answer(Vec3 probe) {
     c.normal = at_.normal;
     c.slip_mm_per_s = (at_.proxy - last_proxy_) / options_.tick_s;
     const Vec3 way = probe - at_.proxy;
-    if (phase_ != Phase::touching) {
+    const Split s = split(at_, probe);
+    if (phase_ != Phase::touching || (!settled_ && !(s.press_mm > 0))) {
         // On its way through the air: nothing is felt of it unless the probe is in material. As deep as it is
         // there it is pushed back, out of the surface or, where that is the far side of a wall, to the proxy.
         if (settled_ || phase_ == Phase::climb) return c;
@@ -511,7 +521,6 @@ ProbeContact FieldContact::answer(Vec3 probe) {
         c.force_n = options_.stiffness_n_per_mm * c.penetration_mm * c.normal;
         return c;
     }
-    const Split s = split(at_, probe);
     c.penetration_mm = s.press_mm;
     if (!(s.press_mm > 0)) return c;
     c.in_contact = true;

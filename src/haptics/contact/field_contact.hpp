@@ -40,7 +40,7 @@ struct ProbeContact {
     Vec3 lever_mm;
 };
 
-// The proxy never crosses the surface, at any speed of the probe and any thickness of a wall. Four rules hold
+// The proxy never crosses the surface, at any speed of the probe and any thickness of a wall. Five rules hold
 // in every tick:
 //   1. The proxy is tied: it touches a ball of free space (the anchor). A chain of free balls joins each
 //      anchor to the one before. A ball is tied without one by the last place, where a step is so short that
@@ -48,8 +48,10 @@ struct ProbeContact {
 //   2. The proxy steps along the surface only if the step brings it nearer to the probe and the new place can
 //      be tied.
 //   3. The proxy makes progress: after a refused step it tries a shorter one, in this tick or in the next.
-//   4. Before the proxy has settled, the whole spring acts from the last tied place. In flight, only the part
-//      of the spring that the depth of the probe explains acts.
+//   4. Before the proxy has settled, the whole spring acts from the last tied place. In flight, and at a
+//   place
+//      that does not hold the probe, only the part of the spring that the depth of the probe explains acts.
+//   5. Before the proxy has settled, the force grows by no more than the motion of the probe explains.
 //
 // The proxy minimises the distance to the probe. It slides along the surface with a step that the curvature
 // allows. In a corner all sides hold it. No mesh and no unit is assumed.
@@ -65,7 +67,7 @@ class FieldContact {
 
     // One tick with the probe at `probe_mm`. If the position is not finite the proxy stays and the force is
     // 0.
-    ProbeContact update(Vec3 probe_mm) noexcept { return tick(probe_mm, false); }
+    ProbeContact update(Vec3 probe_mm) noexcept { return tick(probe_mm, 0); }
     // The same for a probe of several balls (ProbeGap). `balls_mm` are their current offsets from the probe
     // position.
     ProbeContact update(Vec3 probe_mm, std::span<const Vec3> balls_mm) noexcept;
@@ -92,9 +94,10 @@ class FieldContact {
     // Of the most: kept for the end of a tick, which pushes a proxy out of the material and asks where the
     // probe is.
     static constexpr int kEndQueries = 20;
-    // After so many searches along the surface (NearHint) no further step begins in a tick. A ball about as
-    // wide as the cutter was needs many.
-    static constexpr long kMostSearches = 300;
+    // After so many searches along the surface (NearHint) a tick makes only the queries of its end. A ball
+    // about as wide as the cutter was needs many. kFirst: until it has taken a step. kFlight: in flight,
+    // where the hand feels nothing of the way still to go.
+    static constexpr long kMostSearches = 80, kFirstSearches = 120, kFlightSearches = 300;
     // Queries that a step may need before it can be taken back, and links of a chain of balls.
     static constexpr int kStepQueries = 6, kMostLinks = 24;
     // A proxy within this of the surface is on it, mm. No shorter step is worth taking. Of a ball the field
@@ -124,7 +127,7 @@ class FieldContact {
         double rest_mm = 0, press_mm = 0;
     };
 
-    ProbeContact tick(Vec3 probe, bool turned) noexcept;
+    ProbeContact tick(Vec3 probe, double turned_mm) noexcept;
     bool is_wedged() const;
     void release_stuck_proxy(Vec3 probe);
     Next climb();
@@ -149,7 +152,12 @@ class FieldContact {
     bool chain(const Anchor& to);
     bool reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm);
     ProbeContact answer(Vec3 probe);
-    bool budget(int queries) const { return queries_ + queries <= kMostQueries - kEndQueries; }
+    bool budget(int queries) const {
+        const long most = phase_ != Phase::touching ? kFlightSearches
+                          : moved_                  ? kMostSearches
+                                                    : kFirstSearches;
+        return queries_ + queries <= kMostQueries - kEndQueries && gap_.searches() - searches_before_ < most;
+    }
     ProbeGap::Gap measure(Vec3 at) {
         ++queries_;
         return gap_.measure(*field_, at);
@@ -168,6 +176,7 @@ class FieldContact {
     ContactOptions options_;
     ProbeGap gap_;
     int queries_ = 0;
+    long searches_before_ = 0;  // this tick
     Phase phase_ = Phase::begin;
     bool settled_ = true;
     bool braced_ = false;  // settled between nearly parallel sides, which also hold the remaining way
@@ -179,7 +188,9 @@ class FieldContact {
     Anchor anchor_;
     double chained_mm_ = 0;  // length of the last chain
     Place at_;               // the contact, tied
-    Vec3 last_proxy_;
+    // Of the last tick.
+    Vec3 last_proxy_, last_probe_;
+    double last_force_n_ = 0;
     SideStep side_step_;
     double height_ = 0.1;   // of the anchor over the proxy, mm
     double stride_mm_ = 0;  // longest step that is tried
