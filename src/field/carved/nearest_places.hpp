@@ -11,6 +11,8 @@ namespace tribo::field {
 
 // Nearest places that are this far apart are two places, mm.
 inline constexpr double kSameFoot = 0.01;
+// Distances of the surface that differ by no more than this are the same, mm.
+inline constexpr double kSameDistance = 2e-5;
 
 // The nearest places of the surface found so far that are nearer than `within_mm`, and the distance of all
 // the rest of them.
