@@ -357,7 +357,7 @@ TEST(NearestPoint, is_the_shortest_of_all_rays_over_five_axis_passes) {
 
 // The depth in the sweep of a tilted flat cutter is less than the distance to its floor: no place is proven
 // by the shapes that meet there alone.
-TEST(NearestPoint, is_the_shortest_of_all_rays_over_passes_of_a_tilted_flat_cutter) {
+Carved passes_of_a_tilted_flat_cutter() {
     Carved part({{0, 0, -6}, {8, 8, 0}}, 0.2);
     const Cutter flat = cutter_of(CutterKind::flat, 6);
     const auto pose = [](double x, double y) {
@@ -370,7 +370,34 @@ TEST(NearestPoint, is_the_shortest_of_all_rays_over_passes_of_a_tilted_flat_cutt
         move.end = pose(x, 9);
         part.mill(flat, move);
     }
-    expect_nearest(part, {{2, 2, -2}, {6, 6, 1.5}}, 2, 10, 6);
+    return part;
+}
+
+TEST(NearestPoint, is_the_shortest_of_all_rays_over_passes_of_a_tilted_flat_cutter) {
+    expect_nearest(passes_of_a_tilted_flat_cutter(), {{2, 2, -2}, {6, 6, 1.5}}, 2, 10, 6);
+}
+
+// What was searched once over a smooth floor is not searched again at each small step.
+TEST(NearestPoint, is_searched_seldom_over_passes_of_a_tilted_flat_cutter) {
+    const Carved part = passes_of_a_tilted_flat_cutter();
+    const auto memory = std::make_unique<contact::SearchMemory>();
+    long searches = 0;
+    for (int k = 0; k < 10; ++k) {
+        contact::NearHint hint;
+        hint.memory = memory.get();
+        Vec3 p{2 + 0.1 * k, 2, 1};
+        hint.at_mm = hint.from_mm = p;
+        for (int n = 0; n < 400; ++n) {
+            p.y += 0.008;
+            const contact::SurfaceSample s = part.stock.nearest(p, 4, hint);
+            ASSERT_NEAR(part.air_mm(p - s.distance_mm * s.normal), 0, kTruth) << k << " " << n;
+            if (n % 40 == 0) {
+                ASSERT_LE(s.distance_mm, part.nearest_mm(p) + kTruth) << k << " " << n;
+            }
+        }
+        searches += hint.searches;
+    }
+    EXPECT_LT(searches, 40'000);
 }
 
 // A point near the axis of a hole, or of the round end of a slot, is nearly as far from all of its mouth: an

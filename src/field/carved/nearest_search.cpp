@@ -63,8 +63,10 @@ contact::Foot FieldQuery::NearestSearch::from(const contact::Foot& known) {
         if (is_among_known()) return found_.best();
     }
     // In a corner of the material both sides are near.
-    if (!is_proven_beyond(lower.distance_mm) && lower.distance_mm > 0)
-        (void)search_at(p_ - lower.distance_mm * lower.normal);
+    if (!is_proven_beyond(lower.distance_mm) && lower.distance_mm > 0) {
+        const Vec3 below = p_ - lower.distance_mm * lower.normal;
+        if (!found_below(below)) (void)search_at(below);
+    }
     if (is_proven_beyond(lower.distance_mm)) {
         keep_margin(found_.best(), p_, hint_);
         return found_.best();
@@ -178,10 +180,12 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
     if (const auto known = remembered(start)) return known;
     trail_ = {};
     const Vec3 from = field_.surface_behind(start.at, p_);
+    if (const contact::Foot* known = found_below(from)) return *known;
     const std::optional<contact::Foot> foot = search(ref, from);
     if (!foot) return foot;
     trail_.lead_to(foot->at_mm, field_.cell_mm, p_);
     const std::span passed = trail_.all();
+    if (falls_to(*foot, from)) return foot;  // for any point nearby
     start.lasts_mm = passed.empty()
                          ? comes_nearer_mm(from, foot->at_mm, foot->sides.edge_at(foot->at_mm).along)
                          : comes_nearer_mm(from, passed.front().at_mm, Vec3{});
@@ -214,6 +218,45 @@ double FieldQuery::NearestSearch::comes_nearer_mm(Vec3 from, Vec3 to, Vec3 edge)
         before_mm = nearer_mm;
     }
     return lasts;
+}
+
+// Whether the surface falls towards the point all along from a place to a foot on one side, less and less
+// steeply. Then it does so for a point beside this one too, down to one place of this way.
+bool FieldQuery::NearestSearch::falls_to(const contact::Foot& foot, Vec3 from) const {
+    // The longest way, in cells, and how much less steeply it has to fall at least, per way: a hollow nearly
+    // round about the point has no clear end.
+    constexpr double kLongest = 4, kLeastLess = 0.01;
+    // Normals from one look to the next (product): of one piece on one side, and of two without an edge.
+    constexpr double kOneSide = 0.98, kNoEdge = 0.9995;
+    if (foot.sides.count != 1) return false;
+    const Vec3 way = foot.at_mm - from;
+    const double cells = length(way) * field_.per_cell;
+    if (cells > kLongest) return false;
+    const int parts = std::max(2, static_cast<int>(std::ceil(cells / kPart)));
+    const double least_less_mm = kLeastLess * length(way) / parts;
+    contact::SurfaceSample last;
+    double last_mm = 0;
+    for (int n = 0; n <= parts; ++n) {
+        const Vec3 at = from + (static_cast<double>(n) / parts) * way;
+        const contact::SurfaceSample s = field_.sample(at);
+        const Vec3 on = at - s.way_mm() * s.normal,
+                   along = normalized(way - dot(way, s.normal) * s.normal, Vec3{});
+        const double nearer_mm = dot(p_ - on, along);
+        if (n > 0) {
+            const double least = s.piece == last.piece ? kOneSide : kNoEdge;
+            if (dot(s.normal, last.normal) < least || last_mm - nearer_mm < least_less_mm) return false;
+        }
+        last = s;
+        last_mm = nearer_mm;
+    }
+    return true;
+}
+
+// The foot that was found and that the surface falls to from a place, or null.
+const contact::Foot* FieldQuery::NearestSearch::found_below(Vec3 from) const {
+    const auto found =
+        std::ranges::find_if(found_.all(), [&](const contact::Foot& foot) { return falls_to(foot, from); });
+    return found == found_.all().end() ? nullptr : &*found;
 }
 
 // At a cusp: the nearest surface point of each brick that may contain one, from the nearest brick on, which

@@ -263,7 +263,7 @@ double ShownSurface::settled_mm(double most_mm, double nearest_mm, std::span<con
     for (const ShownPlace& one : passed_) {
         const double nearer_mm = 0.5 * (one.way_mm - nearest_mm);
         if (nearer_mm >= settled) continue;
-        double way_mm = std::max(nearer_mm, steepest_fall_mm(one));
+        double way_mm = nearer_mm;
         for (const SeenPlace& place : seen) {
             if (way_mm >= settled || !leads_to(one.place, place)) continue;
             const double along_mm = std::abs(dot(point_ - one.place.at, place.along));
@@ -274,6 +274,7 @@ double ShownSurface::settled_mm(double most_mm, double nearest_mm, std::span<con
             else
                 way_mm = std::max(way_mm, std::min(place.lasts_mm, along_mm));
         }
+        if (way_mm < settled) way_mm = std::max(way_mm, steepest_fall_mm(one));
         settled = std::min(settled, way_mm);
         if (settled < kTooLittle * field_->cell_mm) return 0;
     }
