@@ -19,9 +19,9 @@ constexpr double kMarginCells = 0.1;
 // Searches that pass the same place of an edge end at the same place, unless the edge comes nearer there by
 // less than this share of its length: nearly round about the point, it has no clear end.
 constexpr double kComesNearer = 5e-3;
-// A search for a point this far away, in cells, ends at the same place if its way still comes nearer all
-// along.
-constexpr double kRemembered = 0.25;
+// A search for a point this far away, in cells, ends at the same place, on an edge or on one side, if its way
+// still comes nearer all along.
+constexpr double kOnEdge = 0.25, kOnSide = 1;
 // The longest way to an edge that is looked at, its parts, and how much less it may come nearer between two
 // of them at least, in cells.
 constexpr double kLongestWay = 8, kPart = 0.25, kLess = 0.05;
@@ -154,12 +154,15 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::remembered(SeenPlace& st
     if (!hint_.memory) return std::nullopt;
     contact::SearchMemory::Search& last = hint_.memory->from(start.at);
     const double moved_mm = distance(p_, last.point_mm);
+    const double most_mm = (last.sides.count > 1 ? kOnEdge : kOnSide) * field_.cell_mm;
     if (last.sides.count == 0 || last.start_mm != start.at || last.change != field_.change ||
-        moved_mm > std::min(kRemembered * field_.cell_mm, last.lasts_mm) ||
+        moved_mm > std::min(most_mm, last.lasts_mm) ||
         last.trail.lasts_mm(p_) <= kComesNearer * distance(p_, last.end_mm))
         return std::nullopt;
     contact::Foot foot = field_.follow(p_, last.end_mm, last.sides, false).foot;
-    if (foot.found && foot.sides.count > 1) {
+    const bool on_same_side = foot.sides.count == 1 && last.sides.count == 1 &&
+                              foot.sides.side[0].piece == last.sides.side[0].piece;
+    if (foot.found && (foot.sides.count > 1 || on_same_side)) {
         found_.put(foot);
         is_proven_ = is_proven_ || field_.is_nearest(foot);
     } else if (const auto searched = search_at(last.end_mm)) {
@@ -185,11 +188,13 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
     if (!foot) return foot;
     trail_.lead_to(foot->at_mm, field_.cell_mm, p_);
     const std::span passed = trail_.all();
-    if (falls_to(*foot, from)) return foot;  // for any point nearby
-    start.lasts_mm = passed.empty()
-                         ? comes_nearer_mm(from, foot->at_mm, foot->sides.edge_at(foot->at_mm).along)
-                         : comes_nearer_mm(from, passed.front().at_mm, Vec3{});
-    if (hint_.memory && foot->sides.count > 1)
+    start.lasts_mm = falls_to_mm(*foot, from);
+    const bool falls = start.lasts_mm > 0;
+    if (!falls)
+        start.lasts_mm = passed.empty()
+                             ? comes_nearer_mm(from, foot->at_mm, foot->sides.edge_at(foot->at_mm).along)
+                             : comes_nearer_mm(from, passed.front().at_mm, Vec3{});
+    if (hint_.memory && (falls || foot->sides.count > 1))
         hint_.memory->from(start.at) = {start.at,    p_,          start.lasts_mm, trail_,
                                         foot->at_mm, foot->sides, field_.change};
     return foot;
@@ -220,22 +225,23 @@ double FieldQuery::NearestSearch::comes_nearer_mm(Vec3 from, Vec3 to, Vec3 edge)
     return lasts;
 }
 
-// Whether the surface falls towards the point all along from a place to a foot on one side, less and less
-// steeply. Then it does so for a point beside this one too, down to one place of this way.
-bool FieldQuery::NearestSearch::falls_to(const contact::Foot& foot, Vec3 from) const {
+// Over this way of the point, mm, the surface falls towards it all along from a place down to one place, less
+// and less steeply, and without an edge where it ends; for this point that is a foot on one side. 0: it does
+// not.
+double FieldQuery::NearestSearch::falls_to_mm(const contact::Foot& foot, Vec3 from) const {
     // The longest way, in cells, and how much less steeply it has to fall at least, per way: a hollow nearly
     // round about the point has no clear end.
     constexpr double kLongest = 4, kLeastLess = 0.01;
     // Normals from one look to the next (product): of one piece on one side, and of two without an edge.
     constexpr double kOneSide = 0.98, kNoEdge = 0.9995;
-    if (foot.sides.count != 1) return false;
+    if (foot.sides.count != 1) return 0;
     const Vec3 way = foot.at_mm - from;
     const double cells = length(way) * field_.per_cell;
-    if (cells > kLongest) return false;
+    if (cells > kLongest) return 0;
     const int parts = std::max(2, static_cast<int>(std::ceil(cells / kPart)));
     const double least_less_mm = kLeastLess * length(way) / parts;
     contact::SurfaceSample last;
-    double last_mm = 0;
+    double last_mm = 0, lasts_mm = SeenPlace::kUnlimited;
     for (int n = 0; n <= parts; ++n) {
         const Vec3 at = from + (static_cast<double>(n) / parts) * way;
         const contact::SurfaceSample s = field_.sample(at);
@@ -243,19 +249,26 @@ bool FieldQuery::NearestSearch::falls_to(const contact::Foot& foot, Vec3 from) c
                    along = normalized(way - dot(way, s.normal) * s.normal, Vec3{});
         const double nearer_mm = dot(p_ - on, along);
         if (n > 0) {
-            const double least = s.piece == last.piece ? kOneSide : kNoEdge;
-            if (dot(s.normal, last.normal) < least || last_mm - nearer_mm < least_less_mm) return false;
+            if (last_mm - nearer_mm < least_less_mm) return 0;
+            if (dot(s.normal, last.normal) < (s.piece == last.piece ? kOneSide : kNoEdge)) {
+                // Over a ridge, not through a corner.
+                if (dot(s.normal - last.normal, way) < 0 || nearer_mm < 0) return 0;
+                lasts_mm = std::min(lasts_mm, nearer_mm);
+            }
         }
         last = s;
         last_mm = nearer_mm;
     }
-    return true;
+    return lasts_mm;
 }
 
-// The foot that was found and that the surface falls to from a place, or null.
+// The foot that was found to which smooth surface falls from a place, or null. Beside a way over an edge that
+// may itself be nearer.
 const contact::Foot* FieldQuery::NearestSearch::found_below(Vec3 from) const {
-    const auto found =
-        std::ranges::find_if(found_.all(), [&](const contact::Foot& foot) { return falls_to(foot, from); });
+    const auto falls = [&](const contact::Foot& foot) {
+        return falls_to_mm(foot, from) == SeenPlace::kUnlimited;
+    };
+    const auto found = std::ranges::find_if(found_.all(), falls);
     return found == found_.all().end() ? nullptr : &*found;
 }
 

@@ -51,7 +51,7 @@ class FieldQuery::NearestSearch {
     std::optional<contact::Foot> remembered(SeenPlace& start);
     std::optional<contact::Foot> search_from(SeenPlace& start, BrickRef ref);
     double comes_nearer_mm(Vec3 from, Vec3 to, Vec3 edge) const;
-    bool falls_to(const contact::Foot& foot, Vec3 from) const;
+    double falls_to_mm(const contact::Foot& foot, Vec3 from) const;
     const contact::Foot* found_below(Vec3 from) const;
     contact::Foot among_bricks(contact::SurfaceSample lower);
 
