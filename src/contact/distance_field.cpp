@@ -14,10 +14,10 @@ constexpr double kAnyStep = 1e30;  // mm
 // A point this near to the surface counts as on it, mm.
 constexpr double kOnSurface = 1e-6;
 // What a searched sweep gives as one of many pieces may be off by this, mm.
-constexpr double kUnsure = 2e-5;
+constexpr double kUnsure = 2e-6;
 // The search has ended at a point if the next step changes the distance by less than this, mm: half the
-// square of the step over the distance. Normals of swept edges are accurate to a thousandth only.
-constexpr double kStill = 5e-6;
+// square of the step over the distance.
+constexpr double kStill = 1e-6;
 // Normals of one smooth piece agree at least this well (product) from one step of the search to the next.
 constexpr double kAlike = 0.5;
 // Bends are measured over this share of the distance. A bend is too great from this share of the bend of a

@@ -16,7 +16,7 @@
 namespace tribo::milling {
 namespace {
 
-constexpr double kTool = 5, kPitch = 1, kTruth = 1e-4;  // 0.1 um
+constexpr double kTool = 5, kPitch = 1, kTruth = 2e-5;  // 0.02 um
 
 // Grooves along y, kPitch apart, with their bottoms at z = -1.
 std::unique_ptr<field::CarvedField> scallops(double cell_mm) {
