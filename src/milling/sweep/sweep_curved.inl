@@ -68,7 +68,7 @@ TRIBO_LANES F8 bounds_from_middles(const Profile<F8>& p, const TravelMiddles& m,
     const F8 bend = load(m.bend) + load(m.bend_per_mm) * reach;
     const Instant<F8> middle = Views(m.at, point).instants<kind>(p);
     const F8 rounding = splat(kRounding) * reach * (splat(1.0f) + speed / p.R);
-    return middle.distance - splat(0.5f) * abs(middle.slope) - splat(0.125f) * bend - rounding;
+    return bound_from_middle(middle, bend) - rounding;
 }
 
 // Fills Floors for one point: eight instants at once.
@@ -404,8 +404,7 @@ TRIBO_LANES F8 row_bound(const Profile<F8>& p, const SeenFrame& frame, F8 x, flo
     const Instant<F8> middle =
         instant<kind>(p, seen[0] * seen[0] + seen[1] * seen[1], seen[0] * seen[3] + seen[1] * seen[4],
                       seen[2], seen[5], seen[3] * seen[3] + seen[4] * seen[4]);
-    return middle.distance - splat(0.5f) * abs(middle.slope) - splat(0.125f) * bounds.bend -
-           broadcast<F8>(kProven<F8>);
+    return bound_from_middle(middle, bounds.bend) - broadcast<F8>(kProven<F8>);
 }
 
 template <CutterKind kind>

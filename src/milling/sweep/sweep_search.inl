@@ -29,6 +29,12 @@ TRIBO_LANES Instant<T> blend(Mask<T> m, const Instant<T>& a, const Instant<T>& b
             select(m, a.way_squared, b.way_squared)};
 }
 
+// A lower bound of the distance over the whole travel, from its middle alone. `bend`: bound of |q''|.
+template <class T>
+TRIBO_LANES T bound_from_middle(const Instant<T>& middle, T bend) {
+    return middle.distance - broadcast<T>(0.5) * abs(middle.slope) - broadcast<T>(0.125) * bend;
+}
+
 // Bounds for one point over the whole travel: of |q''|, of |q'|, and of the error of way_squared by a frame
 // that spins. `radius` converts a distance to the side into a distance to the axis. `reach` is the distance
 // from the tip.
