@@ -14,7 +14,7 @@ constexpr double kAnyStep = 1e30;  // mm
 // A point this near to the surface counts as on it, mm.
 constexpr double kOnSurface = 1e-6;
 // What a searched sweep gives as one of many pieces may be off by this, mm.
-constexpr double kUnsure = 2e-6;
+constexpr double kUnsure = 2e-5;
 // The search has ended at a point if the next step changes the distance by less than this, mm: half the
 // square of the step over the distance.
 constexpr double kStill = 1e-6;
