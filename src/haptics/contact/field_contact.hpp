@@ -97,7 +97,7 @@ class FieldContact {
     // After so many searches along the surface (NearHint) a tick makes only the queries of its end. A ball
     // about as wide as the cutter was needs many. kFirst: until it has taken a step. kFlight: in flight,
     // where the hand feels nothing of the way still to go.
-    static constexpr long kMostSearches = 80, kFirstSearches = 120, kFlightSearches = 300;
+    static constexpr long kMostSearches = 80, kFirstSearches = 120, kFlightSearches = 160;
     // Queries that a step may need before it can be taken back, and links of a chain of balls.
     static constexpr int kStepQueries = 6, kMostLinks = 24;
     // A proxy within this of the surface is on it, mm. No shorter step is worth taking. Of a ball the field
