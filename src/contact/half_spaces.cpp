@@ -18,7 +18,8 @@ void HalfSpaces::put(const HalfSpace& h, double alike) {
     for (int n = 0; n < count; ++n) {
         HalfSpace& s = side[static_cast<std::size_t>(n)];
         if (s.piece == h.piece && dot(s.normal, h.normal) > alike) {
-            s = h;
+            s.normal = h.normal;
+            s.offset = h.offset;
             return;
         }
     }

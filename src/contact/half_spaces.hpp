@@ -28,8 +28,8 @@ struct HalfSpaces {
     std::array<HalfSpace, kMost> side;
     int count = 0;
 
-    // Replaces the half-space of the same piece (angle of the normals within acos(alike)), else adds one. A
-    // full set drops the oldest one.
+    // Moves the half-space of the same piece (angle of the normals within acos(alike)), which keeps its bend,
+    // else adds one. A full set drops the oldest one.
     void put(const HalfSpace& h, double alike);
     // Returns the nearest point to y in all half-spaces; if their intersection is empty, in the last one.
     Vec3 nearest(Vec3 y) const;
