@@ -220,13 +220,31 @@ struct Edge {
     std::optional<Place> next_to(const Place& place, double step_mm) const {
         return beside(place.at + step_mm * place.along, place.along);
     }
+    // Where another piece takes the place of one of the two, this far ahead: goes over to its edge.
+    std::optional<Place> go_over(const Place& place, double step_mm) {
+        constexpr double kAhead = 0.9, kNear = 2;
+        const Vec3 ahead = place.at + step_mm * place.along;
+        const std::uint32_t piece = field.sample(ahead).piece;
+        for (const std::uint32_t other : pieces) {
+            if (piece == pieces[0] || piece == pieces[1]) break;
+            const Edge next{field, {other, piece}};
+            const auto on = next.beside(ahead, place.along);
+            if (!on || dot(on->along, place.along) < kAhead || distance(on->at, ahead) > kNear * step_mm ||
+                std::abs(field.distance_mm(on->at)) > kUnsure)
+                continue;
+            pieces = next.pieces;
+            return on;
+        }
+        return std::nullopt;
+    }
 };
 
 // From a place where the edge comes nearer to the point, in growing steps to one where it no longer does, and
-// from there by false position to where the way to the point is square to the edge.
-Edge::Place nearest_along(const Edge& edge, Vec3 point_mm, Edge::Place from, double first_mm, double least_mm,
+// from there by false position to where the way to the point is square to the edge. The edge may go over to
+// others.
+Edge::Place nearest_along(Edge& edge, Vec3 point_mm, Edge::Place from, double first_mm, double least_mm,
                           Trail* trail) {
-    constexpr int kMostSteps = 24, kMostRefinements = 12;
+    constexpr int kMostSteps = 32, kMostRefinements = 12;
     constexpr double kGrows = 2, kLongest = 0.5;
     const auto ahead_mm = [&](const Edge::Place& place) { return dot(point_mm - place.at, place.along); };
     std::optional<Edge::Place> beyond;
@@ -235,6 +253,12 @@ Edge::Place nearest_along(const Edge& edge, Vec3 point_mm, Edge::Place from, dou
         const auto next = edge.next_to(from, step_mm);
         if (!next || std::abs(edge.field.distance_mm(next->at)) > kUnsure) {
             step_mm /= kGrows * kGrows;
+            if (step_mm >= least_mm) continue;
+            const auto over = edge.go_over(from, kGrows * least_mm);
+            if (!over || ahead_mm(*over) <= 0) break;
+            from = *over;
+            if (trail) trail->put({from.at, from.along});
+            step_mm = first_mm;
         } else if (ahead_mm(*next) <= 0) {
             beyond = next;
         } else {
@@ -271,16 +295,29 @@ Foot back_to_edge(const DistanceField& field, Vec3 point_mm, const Foot& lost) {
     std::sort(sides.side.begin(), sides.side.begin() + sides.count, [&](const auto& a, const auto& b) {
         return std::abs(a.above(lost.at_mm)) < std::abs(b.above(lost.at_mm));
     });
-    sides.count = 2;
-    const Edge edge{field, {sides.side[0].piece, sides.side[1].piece}};
-    const auto place = edge.beside(lost.at_mm, Vec3{});
-    if (!place || std::abs(field.distance_mm(place->at)) > kOnSurface) return lost;
-    for (std::size_t n = 0; n < 2; ++n) {
-        sides.side[n].normal = place->normals[n];
-        sides.side[n].offset = dot(place->normals[n], place->at);
+    // Two of the nearest three, as a sweep and the next one are near each other; or one of them and what has
+    // taken the place of the other one.
+    constexpr std::size_t kPairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    const auto on_edge = [&](std::uint32_t a, std::uint32_t b, Vec3 q) -> std::optional<Foot> {
+        const Edge edge{field, {a, b}};
+        const auto place = a != b ? edge.beside(q, Vec3{}) : std::nullopt;
+        if (!place || std::abs(field.distance_mm(place->at)) > kUnsure) return std::nullopt;
+        HalfSpaces on;
+        for (std::size_t n = 0; n < 2; ++n)
+            on.put({place->normals[n], dot(place->normals[n], place->at), edge.pieces[n]}, kAlike);
+        const double way = distance(point_mm, place->at);
+        return Foot{{way, (point_mm - place->at) / way, a}, place->at, on, true};
+    };
+    for (const auto& pair : kPairs) {
+        if (pair[1] >= static_cast<std::size_t>(sides.count)) break;
+        const std::uint32_t a = sides.side[pair[0]].piece, b = sides.side[pair[1]].piece;
+        if (const auto foot = on_edge(a, b, lost.at_mm)) return *foot;
     }
-    const double way = distance(point_mm, place->at);
-    return {{way, (point_mm - place->at) / way, sides.side[0].piece}, place->at, sides, true};
+    const std::uint32_t here = field.sample(lost.at_mm).piece;
+    for (std::size_t n = 0; n < 2; ++n) {
+        if (const auto foot = on_edge(sides.side[n].piece, here, lost.at_mm)) return *foot;
+    }
+    return lost;
 }
 
 // Goes from a place along the surface of a hollow, in steps, as long as it comes nearer to the point.
@@ -338,7 +375,7 @@ Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot, Trail* tra
     const HalfSpaces::Edge line = foot.sides.edge_at(foot.at_mm);
     if (squared_length(line.along) == 0) return foot;
     HalfSpace &a = foot.sides.side[line.sides[0]], &b = foot.sides.side[line.sides[1]];
-    const Edge edge{field, {a.piece, b.piece}};
+    Edge edge{field, {a.piece, b.piece}};
     auto here = edge.beside(foot.at_mm, line.along);
     if (!here) return foot;
     const double ahead_mm = dot(point_mm - here->at, here->along);
@@ -361,6 +398,13 @@ Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot, Trail* tra
     foot.at_mm = place.at;
     foot.sample.distance_mm = far_mm;
     foot.sample.normal = (point_mm - place.at) / far_mm;
+    if (a.piece != edge.pieces[0] || b.piece != edge.pieces[1]) {
+        HalfSpaces over;
+        for (std::size_t n = 0; n < 2; ++n)
+            over.put({place.normals[n], dot(place.normals[n], place.at), edge.pieces[n]}, kAlike);
+        foot.sides = over;
+        return foot;
+    }
     a.normal = place.normals[0];
     b.normal = place.normals[1];
     for (HalfSpace* side : {&a, &b}) side->offset = dot(side->normal, place.at);
