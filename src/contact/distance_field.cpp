@@ -220,16 +220,17 @@ struct Edge {
     std::optional<Place> next_to(const Place& place, double step_mm) const {
         return beside(place.at + step_mm * place.along, place.along);
     }
-    // Where another piece takes the place of one of the two, this far ahead: goes over to its edge.
-    std::optional<Place> go_over(const Place& place, double step_mm) {
-        constexpr double kAhead = 0.9, kNear = 2;
+    // Where another piece takes the place of one of the two, this far ahead: goes over to its edge, this far
+    // from there at most.
+    std::optional<Place> go_over(const Place& place, double step_mm, double most_mm) {
+        constexpr double kAhead = 0.9;
         const Vec3 ahead = place.at + step_mm * place.along;
         const std::uint32_t piece = field.sample(ahead).piece;
         for (const std::uint32_t other : pieces) {
             if (piece == pieces[0] || piece == pieces[1]) break;
             const Edge next{field, {other, piece}};
             const auto on = next.beside(ahead, place.along);
-            if (!on || dot(on->along, place.along) < kAhead || distance(on->at, ahead) > kNear * step_mm ||
+            if (!on || dot(on->along, place.along) < kAhead || distance(on->at, ahead) > most_mm ||
                 std::abs(field.distance_mm(on->at)) > kUnsure)
                 continue;
             pieces = next.pieces;
@@ -254,7 +255,7 @@ Edge::Place nearest_along(Edge& edge, Vec3 point_mm, Edge::Place from, double fi
         if (!next || std::abs(edge.field.distance_mm(next->at)) > kUnsure) {
             step_mm /= kGrows * kGrows;
             if (step_mm >= least_mm) continue;
-            const auto over = edge.go_over(from, kGrows * least_mm);
+            const auto over = edge.go_over(from, kGrows * least_mm, 2 * kGrows * least_mm);
             if (!over || ahead_mm(*over) <= 0) break;
             from = *over;
             if (trail) trail->put({from.at, from.along});
@@ -296,26 +297,20 @@ Foot back_to_edge(const DistanceField& field, Vec3 point_mm, const Foot& lost) {
         return std::abs(a.above(lost.at_mm)) < std::abs(b.above(lost.at_mm));
     });
     // Two of the nearest three, as a sweep and the next one are near each other; or one of them and what has
-    // taken the place of the other one.
+    // taken the place of the other one there.
     constexpr std::size_t kPairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-    const auto on_edge = [&](std::uint32_t a, std::uint32_t b, Vec3 q) -> std::optional<Foot> {
-        const Edge edge{field, {a, b}};
-        const auto place = a != b ? edge.beside(q, Vec3{}) : std::nullopt;
-        if (!place || std::abs(field.distance_mm(place->at)) > kUnsure) return std::nullopt;
+    for (const auto& pair : kPairs) {
+        if (pair[1] >= static_cast<std::size_t>(sides.count)) break;
+        Edge edge{field, {sides.side[pair[0]].piece, sides.side[pair[1]].piece}};
+        auto place = edge.beside(lost.at_mm, Vec3{});
+        if (place && std::abs(field.distance_mm(place->at)) > kUnsure)
+            place = edge.go_over(*place, 0, kAnyStep);
+        if (!place) continue;
         HalfSpaces on;
         for (std::size_t n = 0; n < 2; ++n)
             on.put({place->normals[n], dot(place->normals[n], place->at), edge.pieces[n]}, kAlike);
         const double way = distance(point_mm, place->at);
-        return Foot{{way, (point_mm - place->at) / way, a}, place->at, on, true};
-    };
-    for (const auto& pair : kPairs) {
-        if (pair[1] >= static_cast<std::size_t>(sides.count)) break;
-        const std::uint32_t a = sides.side[pair[0]].piece, b = sides.side[pair[1]].piece;
-        if (const auto foot = on_edge(a, b, lost.at_mm)) return *foot;
-    }
-    const std::uint32_t here = field.sample(lost.at_mm).piece;
-    for (std::size_t n = 0; n < 2; ++n) {
-        if (const auto foot = on_edge(sides.side[n].piece, here, lost.at_mm)) return *foot;
+        return {{way, (point_mm - place->at) / way, edge.pieces[0]}, place->at, on, true};
     }
     return lost;
 }
