@@ -143,6 +143,7 @@ Foot foot_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double 
             if (trail && n > 0 && std::abs(s.distance_mm) <= kUnsure && squared_length(edge.along) > 0)
                 trail->put({q, edge_of(sides.side[edge.sides[0]], sides.side[edge.sides[1]])});
             if (!is_known) {
+                if (!lists(sides, s.piece)) sides.make_room(q);
                 const int known = sides.count;
                 sides.put({s.normal, dot(s.normal, q) - s.way_mm(), s.piece}, kAlike);
                 // A step into the air beyond an edge has passed it: first back to the edge.
@@ -219,6 +220,13 @@ struct Edge {
     }
     std::optional<Place> next_to(const Place& place, double step_mm) const {
         return beside(place.at + step_mm * place.along, place.along);
+    }
+    // The tangent planes of the two pieces at a place.
+    HalfSpaces sides_at(const Place& place) const {
+        HalfSpaces both;
+        for (std::size_t n = 0; n < 2; ++n)
+            both.put({place.normals[n], dot(place.normals[n], place.at), pieces[n]}, kAlike);
+        return both;
     }
     // Where another piece takes the place of one of the two, this far ahead: goes over to its edge, this far
     // from there at most.
@@ -306,11 +314,8 @@ Foot back_to_edge(const DistanceField& field, Vec3 point_mm, const Foot& lost) {
         if (place && std::abs(field.distance_mm(place->at)) > kUnsure)
             place = edge.go_over(*place, 0, kAnyStep);
         if (!place) continue;
-        HalfSpaces on;
-        for (std::size_t n = 0; n < 2; ++n)
-            on.put({place->normals[n], dot(place->normals[n], place->at), edge.pieces[n]}, kAlike);
         const double way = distance(point_mm, place->at);
-        return {{way, (point_mm - place->at) / way, edge.pieces[0]}, place->at, on, true};
+        return {{way, (point_mm - place->at) / way, edge.pieces[0]}, place->at, edge.sides_at(*place), true};
     }
     return lost;
 }
@@ -394,10 +399,7 @@ Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot, Trail* tra
     foot.sample.distance_mm = far_mm;
     foot.sample.normal = (point_mm - place.at) / far_mm;
     if (a.piece != edge.pieces[0] || b.piece != edge.pieces[1]) {
-        HalfSpaces over;
-        for (std::size_t n = 0; n < 2; ++n)
-            over.put({place.normals[n], dot(place.normals[n], place.at), edge.pieces[n]}, kAlike);
-        foot.sides = over;
+        foot.sides = edge.sides_at(place);
         return foot;
     }
     a.normal = place.normals[0];
@@ -407,12 +409,14 @@ Foot along_edge(const DistanceField& field, Vec3 point_mm, Foot foot, Trail* tra
 }
 
 Foot nearest_from(const DistanceField& field, Vec3 point_mm, Vec3 start_mm, double longest_mm, Trail* trail) {
+    // Along the rim of a groove that many sweeps left the way is long.
+    constexpr int kMostTries = 3;
     Foot foot = foot_from(field, point_mm, start_mm, longest_mm, {}, trail);
-    if (!foot.found) {
+    for (int tries = 0; tries < kMostTries && !foot.found; ++tries) {
         const Foot on = back_to_edge(field, point_mm, foot);
-        if (on.found)
-            foot = foot_from(field, point_mm, along_edge(field, point_mm, on, trail).at_mm, longest_mm, {},
-                             trail);
+        if (!on.found) break;
+        foot =
+            foot_from(field, point_mm, along_edge(field, point_mm, on, trail).at_mm, longest_mm, {}, trail);
     }
     if (!foot.found) foot = descend(field, point_mm, foot.at_mm);
     foot = along_edge(field, point_mm, foot, trail);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contact/half_spaces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,6 +29,14 @@ void HalfSpaces::put(const HalfSpace& h, double alike) {
         --count;
     }
     side[static_cast<std::size_t>(count++)] = h;
+}
+
+void HalfSpaces::make_room(Vec3 at) {
+    if (count < kMost) return;
+    const auto deepest =
+        std::ranges::min_element(side, {}, [at](const HalfSpace& one) { return one.above(at); });
+    std::move(deepest + 1, side.end(), deepest);
+    --count;
 }
 
 Vec3 HalfSpaces::nearest(Vec3 y) const {

@@ -31,6 +31,8 @@ struct HalfSpaces {
     // Moves the half-space of the same piece (angle of the normals within acos(alike)), which keeps its bend,
     // else adds one. A full set drops the oldest one.
     void put(const HalfSpace& h, double alike);
+    // If the set is full, drops the one that a point is deepest in.
+    void make_room(Vec3 at);
     // Returns the nearest point to y in all half-spaces; if their intersection is empty, in the last one.
     Vec3 nearest(Vec3 y) const;
 

@@ -400,6 +400,37 @@ TEST(NearestPoint, is_searched_seldom_over_passes_of_a_tilted_flat_cutter) {
     EXPECT_LT(searches, 40'000);
 }
 
+// The rim of a groove goes over from one sweep's to the next one's every 0.3 mm. A search from a start up to
+// a millimetre, five cells, along it ends at the nearest place, on an edge.
+TEST(NearestPoint, is_found_along_a_rim_that_many_sweeps_left) {
+    Carved part({{0, 0, -4}, {20, 20, 0}}, 0.2);
+    const Cutter ball = cutter_of(CutterKind::ball, 3);
+    const auto tip = [](double turn) { return Vec3{10 + 7 * std::cos(turn), 10 + 7 * std::sin(turn), -0.6}; };
+    constexpr double kTurn = 0.3 / 7;
+    for (int n = 0; n < 40; ++n) {
+        motion::Move move;
+        move.start.tip_mm = tip(n * kTurn);
+        move.end.tip_mm = tip((n + 1) * kTurn);
+        part.mill(ball, move);
+    }
+    const CounterNoise noise(29);
+    for (std::uint64_t k = 0; k < 200; ++k) {
+        const auto between = [&](std::uint64_t n, double low, double high) {
+            return low + (high - low) * noise.uniform(4 * k + n);
+        };
+        // Over the groove, nearer to its outer rim than to any other place.
+        const double turn = between(0, 10, 30) * kTurn, away = between(1, -1, 1) / 7;
+        const Vec3 p{10 + (7 + between(2, 0.3, 0.9)) * std::cos(turn),
+                     10 + (7 + between(2, 0.3, 0.9)) * std::sin(turn), between(3, 1.2, 2)};
+        const double rim = 7 + std::sqrt(1.5 * 1.5 - 0.9 * 0.9);
+        const Vec3 start{10 + rim * std::cos(turn + away), 10 + rim * std::sin(turn + away), 0};
+        const contact::Foot foot = contact::nearest_from(part.stock, p, start, 0.13);
+        EXPECT_TRUE(foot.found) << k;
+        EXPECT_GE(foot.sides.count, 2) << k;
+        EXPECT_LE(foot.sample.distance_mm, part.nearest_mm(p) + kTruth) << k;
+    }
+}
+
 // A point near the axis of a hole, or of the round end of a slot, is nearly as far from all of its mouth: an
 // edge that bends about the point as a circle does.
 TEST(NearestPoint, is_that_of_the_closed_form_over_the_mouths_of_holes_and_slots) {

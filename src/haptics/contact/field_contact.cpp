@@ -121,12 +121,16 @@ ProbeContact FieldContact::tick(Vec3 probe, double turned_mm) noexcept {
     stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
     ProbeContact c = answer(probe);
-    const double force_n = length(c.force_n), moved_mm = distance(probe, last_probe_) + turned_mm,
-                 most_n = last_force_n_ + options_.stiffness_n_per_mm * moved_mm;
-    if (!settled_ && force_n > most_n) c.force_n = (most_n / force_n) * c.force_n;
-    last_force_n_ = length(c.force_n);
+    limit_growth(c, distance(probe, last_probe_) + turned_mm);
     last_probe_ = probe;
     return c;
+}
+
+// Before the proxy has settled: the force grows by no more than this motion of the probe explains.
+void FieldContact::limit_growth(ProbeContact& c, double moved_mm) {
+    const double most_n = last_force_n_ + options_.stiffness_n_per_mm * moved_mm;
+    if (!settled_) c.force_n = limited(c.force_n, most_n);
+    last_force_n_ = length(c.force_n);
 }
 
 // Whether two sides hold the proxy from both sides.

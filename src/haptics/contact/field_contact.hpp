@@ -48,9 +48,8 @@ struct ProbeContact {
 //   2. The proxy steps along the surface only if the step brings it nearer to the probe and the new place can
 //      be tied.
 //   3. The proxy makes progress: after a refused step it tries a shorter one, in this tick or in the next.
-//   4. Before the proxy has settled, the whole spring acts from the last tied place. In flight, and at a
-//   place
-//      that does not hold the probe, only the part of the spring that the depth of the probe explains acts.
+//   4. Before the proxy has settled, the whole spring acts from the last tied place. In flight, and where the
+//      place does not hold the probe, only the part of the spring that the depth of the probe explains acts.
 //   5. Before the proxy has settled, the force grows by no more than the motion of the probe explains.
 //
 // The proxy minimises the distance to the probe. It slides along the surface with a step that the curvature
@@ -152,6 +151,7 @@ class FieldContact {
     bool chain(const Anchor& to);
     bool reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm);
     ProbeContact answer(Vec3 probe);
+    void limit_growth(ProbeContact& contact, double moved_mm);
     bool budget(int queries) const {
         const long most = phase_ != Phase::touching ? kFlightSearches
                           : moved_                  ? kMostSearches
@@ -176,7 +176,7 @@ class FieldContact {
     ContactOptions options_;
     ProbeGap gap_;
     int queries_ = 0;
-    long searches_before_ = 0;  // this tick
+    long searches_before_ = 0;  // before this tick
     Phase phase_ = Phase::begin;
     bool settled_ = true;
     bool braced_ = false;  // settled between nearly parallel sides, which also hold the remaining way
