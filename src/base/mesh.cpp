@@ -91,4 +91,25 @@ void weld_exactly(TriangleMesh& mesh) {
     mesh.normals.clear();
 }
 
+void drop_unused(TriangleMesh& mesh) {
+    std::vector<bool> used(mesh.positions.size(), false);
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) used[v] = true;
+    }
+    std::vector<std::uint32_t> renamed(used.size());
+    std::uint32_t kept = 0;
+    for (std::size_t v = 0; v < used.size(); ++v) {
+        renamed[v] = kept;
+        if (!used[v]) continue;
+        mesh.positions[kept] = mesh.positions[v];
+        if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[v];
+        ++kept;
+    }
+    mesh.positions.resize(kept);
+    if (!mesh.normals.empty()) mesh.normals.resize(kept);
+    for (Triangle& t : mesh.triangles) {
+        for (std::uint32_t& v : t) v = renamed[v];
+    }
+}
+
 }  // namespace tribo

@@ -39,5 +39,7 @@ constexpr bool is_degenerate(const Triangle& t) {
 // all positions, also unused ones, and all triangles, also those that then use a vertex twice. It sorts;
 // therefore neither the result nor the time (n log n) depends on the order of the values.
 void weld_exactly(TriangleMesh& mesh);
+// Drops the positions, with their normals, that no triangle uses. The others keep their order.
+void drop_unused(TriangleMesh& mesh);
 
 }  // namespace tribo

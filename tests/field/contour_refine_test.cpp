@@ -17,6 +17,7 @@ namespace tribo::field {
 namespace {
 
 using test::BallPass;
+using tribo::test::expect_solid;
 
 // A round pocket with a flat floor, or, inside out, all but a round pin.
 class Pocket final : public test::PlainShape {
@@ -60,11 +61,6 @@ Off off_surface(const CarvedField& field, const TriangleMesh& mesh) {
         for (const Vec3 p : {a, 0.5 * (a + b), 0.5 * (b + c), 0.5 * (c + a), (a + b + c) / 3}) look(p);
     }
     return off;
-}
-
-void expect_solid(const TriangleMesh& mesh) {
-    EXPECT_TRUE(is_closed(mesh));
-    EXPECT_EQ(tribo::test::SelfIntersections(mesh).pairs().size(), 0u);
 }
 
 TEST(ContourRefine, follows_round_walls_and_their_edges_on_coarse_grids) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <gtest/gtest.h>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -334,5 +335,10 @@ class SelfIntersections {
     std::vector<Node> nodes_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
 };
+
+inline void expect_solid(const TriangleMesh& mesh) {
+    EXPECT_TRUE(is_closed(mesh));
+    EXPECT_EQ(SelfIntersections(mesh).pairs().size(), 0U);
+}
 
 }  // namespace tribo::test

@@ -216,24 +216,6 @@ class Contour {
     std::vector<Point3f> own_;
 };
 
-// Drops the vertices that no triangle uses.
-void drop_unused(TriangleMesh& mesh) {
-    std::vector<std::uint32_t> renamed(mesh.positions.size(), kNoVertex);
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t v : t) renamed[v] = 0;
-    }
-    std::uint32_t kept = 0;
-    for (std::size_t v = 0; v < renamed.size(); ++v) {
-        if (renamed[v] == kNoVertex) continue;
-        renamed[v] = kept;
-        mesh.positions[kept++] = mesh.positions[v];
-    }
-    mesh.positions.resize(kept);
-    for (Triangle& t : mesh.triangles) {
-        for (std::uint32_t& v : t) v = renamed[v];
-    }
-}
-
 }  // namespace
 
 TriangleMesh contour(const CarvedField& field, const ParallelFor& parallel, const ContourOptions& options) {

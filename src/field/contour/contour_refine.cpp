@@ -12,6 +12,7 @@
 
 #include "field/contour/contour.hpp"
 #include "field/contour/contour_brick.hpp"
+#include "field/contour/contour_mend.hpp"
 #include "field/contour/contour_table.hpp"
 
 namespace tribo::field {
@@ -32,6 +33,11 @@ constexpr double kMostBend = 0.5;
 constexpr double kTurns = 0.5;
 // A vertex of the mesh is on the surface within this share of a cell.
 constexpr double kOff = 1e-3;
+// Where a vertex, or a point of an edge in a crowded cell, is off the surface by this share of the sagitta,
+// the mesh beside it may be off by more.
+constexpr double kLeft = 0.2;
+// Where the normals around a vertex have a mean shorter than this, it is on an edge of the surface.
+constexpr double kSharp = 0.999;
 // A triangle that faces away like this from a corner's normal (cosine) is a fold.
 constexpr double kFolds = -0.2;
 // A new vertex is on the surface within this share of the sagitta.
@@ -58,16 +64,20 @@ class Refinement {
     Refinement(TriangleMesh& mesh, const CarvedField& field, double sagitta_mm, const ParallelFor& parallel)
         : mesh_(mesh), field_(field), sagitta_mm_(sagitta_mm), parallel_(parallel) {}
 
-    void run() {
+    // Returns the vertices at which the mesh still leaves the surface.
+    std::vector<std::uint32_t> run() {
         find_normals();
+        find_crowded_cells();
         fresh_.assign(mesh_.triangles.size(), 1);
         for (int n = 0; n < kMostTimes; ++n) {
             find_edges();
-            if (edges_.empty()) break;
-            if (n == 0) find_crowded_cells();
-            if (!find_middles()) break;
+            if (edges_.empty() || !find_middles()) break;
             split_triangles();
         }
+        find_far_triangles();
+        std::sort(left_.begin(), left_.end());
+        left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
+        return std::move(left_);
     }
 
   private:
@@ -80,9 +90,12 @@ class Refinement {
     // Sums of the normals of the triangles around each vertex, weighted by their areas.
     void find_normals() {
         normals_.assign(mesh_.positions.size(), {});
+        areas_.assign(mesh_.positions.size(), 0);
         for (const Triangle& t : mesh_.triangles) {
             const Vec3 n = across(t);
+            const auto area = static_cast<float>(length(n));
             for (const std::uint32_t v : t) {
+                areas_[v] += area;
                 for (std::size_t k = 0; k < 3; ++k)
                     normals_[v][k] += static_cast<float>(n[static_cast<int>(k)]);
             }
@@ -99,22 +112,24 @@ class Refinement {
     // would let the mesh meet itself. Such are the cells of triangles that face away, and of vertices that
     // are not on the surface.
     void find_crowded_cells() {
-        std::vector<std::uint8_t> crowded(mesh_.positions.size());
+        std::vector<std::uint8_t> crowded(mesh_.positions.size()), far(mesh_.positions.size());
         parallel_((crowded.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t task) {
             const std::size_t end = std::min((task + 1) * kAtOnce, crowded.size());
             for (std::size_t v = task * kAtOnce; v < end; ++v) {
                 const double off =
                     std::abs(field_.distance_mm(mesh_.position(static_cast<std::uint32_t>(v))));
                 crowded[v] = off > kOff * field_.cell_mm() ? 1 : 0;
+                far[v] = off > kLeft * sagitta_mm_ ? 1 : 0;
             }
         });
         for (const Triangle& t : mesh_.triangles) {
             if (!faces_away(t)) continue;
-            for (const std::uint32_t v : t) crowded[v] = 1;
+            for (const std::uint32_t v : t) crowded[v] = far[v] = 1;
         }
         crowded_.clear();
         for (std::uint32_t v = 0; v < crowded.size(); ++v) {
             if (crowded[v] != 0) crowded_.push_back(key(cell_of(mesh_.position(v))));
+            if (far[v] != 0) left_.push_back(v);
         }
         std::sort(crowded_.begin(), crowded_.end());
         crowded_.erase(std::unique(crowded_.begin(), crowded_.end()), crowded_.end());
@@ -144,6 +159,12 @@ class Refinement {
 
     Vec3 normal(std::uint32_t v) const {
         return normalized({normals_[v][0], normals_[v][1], normals_[v][2]}, {});
+    }
+
+    // True if the triangles around a vertex of the first mesh face different ways.
+    bool is_sharp(std::uint32_t v) const {
+        const Vec3 sum{normals_[v][0], normals_[v][1], normals_[v][2]};
+        return v < areas_.size() && length(sum) < kSharp * static_cast<double>(areas_[v]);
     }
 
     // True unless the normals at the ends show that the edge is straight enough.
@@ -208,36 +229,44 @@ class Refinement {
         return std::nullopt;
     }
 
-    // The place on the surface for the middle of an edge that is too far from it.
-    std::optional<Vec3> middle_of(const Edge& e) const {
+    // The place on the surface for the middle of an edge that is too far from it. Or else the edge is left as
+    // it is, too far from the surface or not.
+    struct Middle {
+        std::optional<Vec3> at;
+        bool is_left = false;
+    };
+    Middle middle_of(const Edge& e) const {
         const Vec3 a = mesh_.position(e.from), b = mesh_.position(e.to), middle = 0.5 * (a + b);
-        if (is_crowded(middle)) return std::nullopt;
+        if (is_crowded(middle)) return {{}, std::abs(field_.distance_mm(middle)) > kLeft * sagitta_mm_};
         const auto centre = [&](std::uint32_t beside) { return (a + b + mesh_.position(beside)) / 3; };
         std::optional<Vec3> at = meeting(middle, centre(e.beside[0]), centre(e.beside[1]));
         if (at && std::abs(field_.distance_mm(*at)) > kOnSurface * sagitta_mm_) at.reset();
         if (!at) at = on_surface(middle);
-        if (!at) return std::nullopt;
+        if (!at) return {{}, true};
         const double off = distance(*at, middle);
-        if (off <= sagitta_mm_ || off > kMostBend * distance(a, b)) return std::nullopt;
-        return at;
+        if (off <= sagitta_mm_) return {};
+        if (off > kMostBend * distance(a, b)) return {{}, true};
+        return {at};
     }
 
     // Keeps the edges that get a new vertex. Returns whether there are any.
     bool find_middles() {
-        std::vector<std::optional<Vec3>> at(edges_.size());
+        std::vector<Middle> found(edges_.size());
         parallel_((edges_.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t task) {
             const std::size_t end = std::min((task + 1) * kAtOnce, edges_.size());
-            for (std::size_t n = task * kAtOnce; n < end; ++n) at[n] = middle_of(edges_[n]);
+            for (std::size_t n = task * kAtOnce; n < end; ++n) found[n] = middle_of(edges_[n]);
         });
         at_end_.assign(mesh_.positions.size(), false);
         first_new_ = static_cast<std::uint32_t>(mesh_.positions.size());
         std::size_t kept = 0;
         for (std::size_t n = 0; n < edges_.size(); ++n) {
-            if (!at[n]) continue;
+            const auto& [at, is_left] = found[n];
+            if (is_left) left_.insert(left_.end(), {edges_[n].from, edges_[n].to});
+            if (!at) continue;
             Edge& e = edges_[kept++] = edges_[n];
             e.middle = static_cast<std::uint32_t>(mesh_.positions.size());
-            mesh_.positions.push_back(to_float(*at[n]));
-            normals_.push_back(to_float(field_.normal(*at[n])));
+            mesh_.positions.push_back(to_float(*at));
+            normals_.push_back(to_float(field_.normal(*at)));
             at_end_[e.from] = at_end_[e.to] = true;
         }
         edges_.resize(kept);
@@ -321,10 +350,39 @@ class Refinement {
                 if (!turns_over(t)) continue;
                 any = true;
                 for (std::size_t k = 0; k < 3; ++k) {
-                    if (Edge* e = edge(t[k], t[(k + 1) % 3])) e->middle = kNoVertex;
+                    Edge* e = edge(t[k], t[(k + 1) % 3]);
+                    if (!e || e->middle == kNoVertex) continue;
+                    e->middle = kNoVertex;
+                    left_.insert(left_.end(), {e->from, e->to});
                 }
             }
         }
+    }
+
+    // Triangles whose middle, or a quarter of an edge, is too far from the surface although the middles of
+    // their edges are not.
+    void find_far_triangles() {
+        std::vector<std::uint8_t> far(mesh_.triangles.size());
+        parallel_((far.size() + kAtOnce - 1) / kAtOnce, [&](std::size_t task) {
+            const std::size_t end = std::min((task + 1) * kAtOnce, far.size());
+            for (std::size_t n = task * kAtOnce; n < end; ++n) far[n] = is_far(mesh_.triangles[n]) ? 1 : 0;
+        });
+        for (std::size_t n = 0; n < far.size(); ++n) {
+            if (far[n] != 0) left_.insert(left_.end(), mesh_.triangles[n].begin(), mesh_.triangles[n].end());
+        }
+    }
+    bool is_far(const Triangle& t) const {
+        const auto far_at = [&](Vec3 p) { return std::abs(field_.distance_mm(p)) > sagitta_mm_; };
+        bool bends = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+            if (!may_bend(a, b) && !is_sharp(a) && !is_sharp(b)) continue;
+            bends = true;
+            for (const double share : {0.25, 0.5, 0.75}) {
+                if (far_at(lerp(mesh_.position(a), mesh_.position(b), share))) return true;
+            }
+        }
+        return bends && far_at((mesh_.position(t[0]) + mesh_.position(t[1]) + mesh_.position(t[2])) / 3);
     }
 
     // The vertices of edges that stay whole.
@@ -360,7 +418,9 @@ class Refinement {
     double sagitta_mm_;
     const ParallelFor& parallel_;
     std::vector<Point3f> normals_;        // by vertex
+    std::vector<float> areas_;            // by vertex of the mesh as it came: twice those of its triangles
     std::vector<std::uint64_t> crowded_;  // cells of the mesh as it came, sorted
+    std::vector<std::uint32_t> left_;     // vertices where the mesh is left too far from the surface
     std::vector<std::uint8_t> fresh_;     // by triangle: 1 if its edges are to be looked at
     std::vector<Edge> edges_;             // sorted by their ends
     std::vector<bool> at_end_;            // by vertex: it is the end of one of them
@@ -369,15 +429,17 @@ class Refinement {
 
 }  // namespace
 
-void refine(TriangleMesh& mesh, const CarvedField& field, double sagitta_mm, const ParallelFor& parallel) {
+std::vector<std::uint32_t> refine(TriangleMesh& mesh, const CarvedField& field, double sagitta_mm,
+                                  const ParallelFor& parallel) {
     mesh.normals.clear();
-    Refinement(mesh, field, sagitta_mm, parallel).run();
+    return Refinement(mesh, field, sagitta_mm, parallel).run();
 }
 
 TriangleMesh fine_contour(const CarvedField& field, const ParallelFor& parallel) {
     constexpr double kSagittaMm = 0.01;
     TriangleMesh mesh = contour(field, parallel);
-    refine(mesh, field, kSagittaMm, parallel);
+    const std::vector<std::uint32_t> left = refine(mesh, field, kSagittaMm, parallel);
+    mend(mesh, field, kSagittaMm, left, parallel);
     return mesh;
 }
 
