@@ -4,6 +4,7 @@
 #include <random>
 
 #include "field/contour/contour.hpp"
+#include "field/contour/contour_refine.hpp"
 #include "field/mesh/mesh_shape.hpp"
 #include "field/self_intersection.hpp"
 #include "field/shape/box_shape.hpp"
@@ -73,7 +74,9 @@ TEST(MilledMesh, of_fifty_random_parts_is_closed_and_does_not_meet_itself) {
     for (unsigned number = 0; number < 50; ++number) {
         RandomPart part(number);
         const double cell = std::exp(part.uniform(std::log(0.15), std::log(1.2)));
-        expect_solid(field::contour(part.make(cell)), "part", number, cell);
+        const field::CarvedField milled = part.make(cell);
+        expect_solid(field::contour(milled), "part", number, cell);
+        expect_solid(field::fine_contour(milled), "mended part", number, cell);
     }
 }
 

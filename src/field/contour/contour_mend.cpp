@@ -19,6 +19,8 @@ namespace {
 
 // Rounds over the places that changed in the one before.
 constexpr int kMostPasses = 8;
+// At most so many times the given vertices are added. A groove that the grid missed would need many more.
+constexpr std::size_t kMostMore = 3;
 // A triangle is measured where its edges, and lines between them, are divided into so many parts.
 constexpr int kParts = 4;
 // At an edge of the surface less than this share of what is too far tells that the mesh may be: the distance
@@ -54,6 +56,7 @@ class Mending {
           field_(field),
           off_mm_(off_mm),
           parallel_(parallel),
+          most_vertices_(mesh.positions.size() + kMostMore * vertices.size()),
           active_(vertices.begin(), vertices.end()) {}
 
     void run() {
@@ -94,6 +97,7 @@ class Mending {
     // Makes a change if the new triangles meet nothing, and their error is at most so many times that of the
     // old ones, and that of triangles which are `worse_mm` off.
     bool attempt(const MeshChange& change, double times = 1, double worse_mm = 0) {
+        if (change.now.size() > change.old.size() && next_vertex() >= most_vertices_) return false;
         const std::vector<Facet> facets = mesh_.facets(change);
         if (!mesh_.is_free(change, facets)) return false;
         double most = 0, now = 0;
@@ -413,6 +417,7 @@ class Mending {
     const CarvedField& field_;
     double off_mm_;
     const ParallelFor& parallel_;
+    std::size_t most_vertices_;
     std::unordered_map<std::uint32_t, double> errors_;  // by triangle
     std::unordered_map<std::uint32_t, Vec3> lifts_;     // places for vertices that are off the surface
     std::vector<std::uint32_t> active_, touched_;       // vertices of this round, sorted; and of the next one

@@ -18,8 +18,10 @@ double width_mm(const Corners& c) {
     return longest > 0 ? length(twice_area(c)) / std::sqrt(longest) : 0;
 }
 
-bool has(const Triangle& t, std::uint32_t v) {
-    return t[0] == v || t[1] == v || t[2] == v;
+Box3 box_of(const Corners& c) {
+    Box3 box;
+    for (const Vec3& p : c) box.include(p);
+    return box;
 }
 
 // A triangle that was replaced uses one vertex only.
@@ -60,8 +62,7 @@ std::uint64_t GuardedMesh::key(const CellAt& cell) {
 
 template <class Visit>
 bool GuardedMesh::each_cell(const Corners& c, int more, Visit&& visit) const {
-    Box3 box;
-    for (const Vec3& p : c) box.include(p);
+    const Box3 box = box_of(c);
     const CellAt low = cell_of(box.min), high = cell_of(box.max);
     for (int k = low[2] - more; k <= high[2] + more; ++k) {
         for (int j = low[1] - more; j <= high[1] + more; ++j) {
@@ -107,16 +108,16 @@ std::vector<std::uint32_t> GuardedMesh::beside(std::uint32_t v) const {
 }
 
 std::vector<std::uint32_t> GuardedMesh::at_edge(std::uint32_t a, std::uint32_t b) const {
-    std::vector<std::uint32_t> found;
+    std::vector<std::uint32_t> along, against;
     for (const std::uint32_t t : around(knows(a) ? a : b)) {
-        if (has(mesh_.triangles[t], a) && has(mesh_.triangles[t], b)) found.push_back(t);
-    }
-    std::stable_partition(found.begin(), found.end(), [&](std::uint32_t t) {
         const Triangle& of = mesh_.triangles[t];
-        const auto at = static_cast<std::size_t>(std::find(of.begin(), of.end(), a) - of.begin());
-        return of[(at + 1) % 3] == b;
-    });
-    return found;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (of[k] == a && of[(k + 1) % 3] == b) along.push_back(t);
+            if (of[k] == b && of[(k + 1) % 3] == a) against.push_back(t);
+        }
+    }
+    along.insert(along.end(), against.begin(), against.end());
+    return along;
 }
 
 std::vector<Facet> GuardedMesh::facets(const MeshChange& change) const {
@@ -136,29 +137,31 @@ std::vector<Facet> GuardedMesh::facets(const MeshChange& change) const {
 }
 
 bool GuardedMesh::is_free(const MeshChange& change, std::span<const Facet> facets) const {
-    std::vector<std::uint32_t> near;
+    std::vector<Box3> boxes;
     for (const Facet& f : facets) {
         if (width_mm(f.at) < kLeastWidthMm) return false;
-        const bool known = each_cell(f.at, 0, [&](std::uint64_t cell) {
-            const auto at = cells_.find(cell);
-            if (at == cells_.end()) return false;
-            near.insert(near.end(), at->second.begin(), at->second.end());
-            return true;
-        });
-        if (!known) return false;
+        boxes.push_back(box_of(f.at).inflated(kLeastWidthMm));
     }
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
-    std::erase_if(near, [&](std::uint32_t t) {
-        return std::find(change.old.begin(), change.old.end(), t) != change.old.end();
-    });
     for (std::size_t n = 0; n < facets.size(); ++n) {
         for (std::size_t m = 0; m < n; ++m) {
             if (!surely_apart(facets[n], facets[m])) return false;
         }
-        for (const std::uint32_t t : near) {
-            if (!surely_apart(facets[n], {mesh_.triangles[t], corners(t)})) return false;
-        }
+    }
+    // A triangle that reaches several cells is looked at in each: few boxes overlap, so that this costs
+    // little.
+    const auto meets = [&](std::size_t n, std::uint32_t t) {
+        const Corners c = corners(t);
+        return boxes[n].overlaps(box_of(c)) &&
+               std::find(change.old.begin(), change.old.end(), t) == change.old.end() &&
+               !surely_apart(facets[n], {mesh_.triangles[t], c});
+    };
+    for (std::size_t n = 0; n < facets.size(); ++n) {
+        const bool free = each_cell(facets[n].at, 0, [&](std::uint64_t cell) {
+            const auto at = cells_.find(cell);
+            return at != cells_.end() && std::none_of(at->second.begin(), at->second.end(),
+                                                      [&](std::uint32_t t) { return meets(n, t); });
+        });
+        if (!free) return false;
     }
     return true;
 }
