@@ -25,7 +25,7 @@ constexpr std::size_t kMostMore = 3;
 constexpr int kParts = 4;
 // At an edge of the surface less than this share of what is too far tells that the mesh may be: the distance
 // there is that from the nearer face.
-constexpr double kTells = 0.2;
+constexpr double kTells = 0.1;
 // A new place is on the surface within this share of what is too far.
 constexpr double kOnSurface = 0.1;
 constexpr int kMostSteps = 8;

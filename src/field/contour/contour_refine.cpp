@@ -436,10 +436,11 @@ std::vector<std::uint32_t> refine(TriangleMesh& mesh, const CarvedField& field, 
 }
 
 TriangleMesh fine_contour(const CarvedField& field, const ParallelFor& parallel) {
-    constexpr double kSagittaMm = 0.01;
+    // An edge of the surface may lie a little farther from the mesh than the surface at its sides does.
+    constexpr double kSagittaMm = 0.01, kMendedMm = 0.007;
     TriangleMesh mesh = contour(field, parallel);
     const std::vector<std::uint32_t> left = refine(mesh, field, kSagittaMm, parallel);
-    mend(mesh, field, kSagittaMm, left, parallel);
+    mend(mesh, field, kMendedMm, left, parallel);
     return mesh;
 }
 
