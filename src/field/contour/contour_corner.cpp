@@ -33,6 +33,16 @@ FacePoint tangent_near(const CarvedField& field, const FacePoint& x, Vec3 p, dou
     return {beside - distance_to_face(field, x.shape, beside) * n, n, x.shape};
 }
 
+std::optional<Vec3> on_surface(const CarvedField& field, Vec3 p, double within_mm) {
+    constexpr int kMostSteps = 6;
+    for (int n = 0; n < kMostSteps; ++n) {
+        const contact::SurfaceSample s = field.sample(p);
+        if (std::abs(s.distance_mm) < within_mm) return p;
+        p -= s.distance_mm * s.normal;
+    }
+    return std::nullopt;
+}
+
 Vec3 corner_on_face(const CarvedField& field, BrickRef ref, Vec3 from, Vec3 to, int axis, Vec3 low,
                     double off_mm) {
     constexpr double kSmooth = 0.995;  // cosine of 0.1 rad

@@ -3,6 +3,8 @@
 // face of the grid.
 #pragma once
 
+#include <optional>
+
 #include "base/vec3.hpp"
 #include "field/carved/carved_field.hpp"
 
@@ -22,6 +24,9 @@ struct FacePoint {
 // share `back` of the way from p to x, so that this face of the shape answers, not the face that it meets at
 // p.
 FacePoint tangent_near(const CarvedField& field, const FacePoint& x, Vec3 p, double back);
+
+// Goes from p along the normal to the surface, within `within_mm` of it. Nothing if that does not end.
+std::optional<Vec3> on_surface(const CarvedField& field, Vec3 p, double within_mm);
 
 // The surface crosses a face of the grid, whose normal is `axis`, from one point to another. Returns where it
 // has its corner between them: in the cell with the lower corner `low`, at least off_mm within it. If the

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/sort_unique.hpp"
+#include "field/contour/contour_corner.hpp"
 #include "field/contour/contour_table.hpp"
 #include "field/contour/guarded_mesh.hpp"
 #include "field/mesh/mesh_tree.hpp"
@@ -59,6 +61,7 @@ class Mending {
           most_vertices_(mesh.positions.size() + kMostMore * vertices.size()),
           active_(vertices.begin(), vertices.end()) {}
 
+    // Vertices before folds: a vertex that only has to move would be taken out with its fold.
     void run() {
         for (int pass = 0; pass < kMostPasses && !active_.empty(); ++pass) {
             for (const std::uint32_t v : active_) merge(v);
@@ -66,7 +69,7 @@ class Mending {
             unfold_triangles();
             mend_edges();
             mend_triangles();
-            make_unique(touched_);
+            sort_unique(touched_);
             active_.swap(touched_);
             touched_.clear();
         }
@@ -139,14 +142,7 @@ class Mending {
         }
         return below(p);
     }
-    std::optional<Vec3> below(Vec3 p) const {
-        for (int n = 0; n < kMostSteps; ++n) {
-            const contact::SurfaceSample s = field_.sample(p);
-            if (std::abs(s.distance_mm) < kOnSurface * off_mm_) return p;
-            p -= s.distance_mm * s.normal;
-        }
-        return std::nullopt;
-    }
+    std::optional<Vec3> below(Vec3 p) const { return on_surface(field_, p, kOnSurface * off_mm_); }
 
     std::vector<Vec3> centres(std::span<const std::uint32_t> triangles) const {
         std::vector<Vec3> all;
@@ -171,7 +167,7 @@ class Mending {
         for (const std::uint32_t v : active_) {
             if (mesh_.knows(v)) all.insert(all.end(), mesh_.around(v).begin(), mesh_.around(v).end());
         }
-        make_unique(all);
+        sort_unique(all);
         return all;
     }
 
@@ -189,18 +185,12 @@ class Mending {
     // Moves a vertex to the first vertex beside it, at most `reach_mm` away, where that makes the mesh no
     // worse. Returns that one; kNoVertex: there is none.
     std::uint32_t collapse(std::uint32_t v, double reach_mm, double worse_mm) {
-        std::vector<std::uint32_t> ring = mesh_.beside(v);
-        // In a ring of triangles around the vertex each other vertex is in two of them.
-        for (std::size_t n = 0; n < ring.size(); n += 2) {
-            if (n + 1 == ring.size() || ring[n] != ring[n + 1] || (n > 0 && ring[n] == ring[n - 1]))
-                return kNoVertex;
-        }
-        ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+        if (!mesh_.has_ring(v)) return kNoVertex;
+        const std::vector<std::uint32_t> ring = mesh_.beside(v);
         for (const std::uint32_t w : ring) {
             if (!mesh_.knows(w) || distance(mesh_.position(v), mesh_.position(w)) > reach_mm) continue;
             // Only the two vertices across the edge may be beside both of its ends.
-            std::vector<std::uint32_t> beside = mesh_.beside(w);
-            beside.erase(std::unique(beside.begin(), beside.end()), beside.end());
+            const std::vector<std::uint32_t> beside = mesh_.beside(w);
             const auto both = std::count_if(beside.begin(), beside.end(), [&](std::uint32_t u) {
                 return std::binary_search(ring.begin(), ring.end(), u);
             });
@@ -272,7 +262,7 @@ class Mending {
             change.old.insert(change.old.end(), mesh_.around(v).begin(), mesh_.around(v).end());
             change.places.push_back({v, to_float(lerp(mesh_.position(v), lifts_.at(v), share))});
         }
-        make_unique(change.old);
+        sort_unique(change.old);
         for (const std::uint32_t t : change.old) change.now.push_back(mesh_.mesh().triangles[t]);
         return attempt(change, kWorse);
     }
@@ -297,7 +287,7 @@ class Mending {
             for (const std::uint32_t w : mesh_.beside(v))
                 edges.push_back({0, std::min(v, w), std::max(v, w)});
         }
-        make_unique(edges);
+        sort_unique(edges);
         for_each_of(edges.size(), [&](std::size_t n) {
             FarEdge& e = edges[n];
             const Vec3 p = farthest(e.from, e.to);
@@ -309,11 +299,6 @@ class Mending {
         for (const FarEdge& e : edges) {
             if (!flip(e.from, e.to)) split(e.from, e.to, farthest(e.from, e.to));
         }
-    }
-    template <class T>
-    static void make_unique(std::vector<T>& all) {
-        std::sort(all.begin(), all.end());
-        all.erase(std::unique(all.begin(), all.end()), all.end());
     }
     // Looks at the mesh from all threads.
     void for_each_of(std::size_t count, const std::function<void(std::size_t)>& look) const {

@@ -10,8 +10,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/sort_unique.hpp"
 #include "field/contour/contour.hpp"
 #include "field/contour/contour_brick.hpp"
+#include "field/contour/contour_corner.hpp"
 #include "field/contour/contour_mend.hpp"
 #include "field/contour/contour_table.hpp"
 
@@ -75,8 +77,7 @@ class Refinement {
             split_triangles();
         }
         find_far_triangles();
-        std::sort(left_.begin(), left_.end());
-        left_.erase(std::unique(left_.begin(), left_.end()), left_.end());
+        sort_unique(left_);
         return std::move(left_);
     }
 
@@ -131,8 +132,7 @@ class Refinement {
             if (crowded[v] != 0) crowded_.push_back(key(cell_of(mesh_.position(v))));
             if (far[v] != 0) left_.push_back(v);
         }
-        std::sort(crowded_.begin(), crowded_.end());
-        crowded_.erase(std::unique(crowded_.begin(), crowded_.end()), crowded_.end());
+        sort_unique(crowded_);
     }
     using CellAt = std::array<std::int64_t, 3>;
     CellAt cell_of(Vec3 p) const {
@@ -220,15 +220,6 @@ class Refinement {
         return std::nullopt;
     }
 
-    std::optional<Vec3> on_surface(Vec3 p) const {
-        for (int n = 0; n < kMostSteps; ++n) {
-            const contact::SurfaceSample s = field_.sample(p);
-            if (std::abs(s.distance_mm) < kOnSurface * sagitta_mm_) return p;
-            p -= s.distance_mm * s.normal;
-        }
-        return std::nullopt;
-    }
-
     // The place on the surface for the middle of an edge that is too far from it. Or else the edge is left as
     // it is, too far from the surface or not.
     struct Middle {
@@ -241,7 +232,7 @@ class Refinement {
         const auto centre = [&](std::uint32_t beside) { return (a + b + mesh_.position(beside)) / 3; };
         std::optional<Vec3> at = meeting(middle, centre(e.beside[0]), centre(e.beside[1]));
         if (at && std::abs(field_.distance_mm(*at)) > kOnSurface * sagitta_mm_) at.reset();
-        if (!at) at = on_surface(middle);
+        if (!at) at = on_surface(field_, middle, kOnSurface * sagitta_mm_);
         if (!at) return {{}, true};
         const double off = distance(*at, middle);
         if (off <= sagitta_mm_) return {};

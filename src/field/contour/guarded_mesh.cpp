@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_unique.hpp"
+
 namespace tribo::field {
 namespace {
 
@@ -96,7 +98,8 @@ const std::vector<std::uint32_t>& GuardedMesh::around(std::uint32_t v) const {
     return at == around_.end() ? kNone : at->second;
 }
 
-std::vector<std::uint32_t> GuardedMesh::beside(std::uint32_t v) const {
+// The other vertices of the triangles around a vertex, once for each of these, sorted.
+std::vector<std::uint32_t> GuardedMesh::others_around(std::uint32_t v) const {
     std::vector<std::uint32_t> others;
     for (const std::uint32_t t : around(v)) {
         for (const std::uint32_t w : mesh_.triangles[t]) {
@@ -105,6 +108,21 @@ std::vector<std::uint32_t> GuardedMesh::beside(std::uint32_t v) const {
     }
     std::sort(others.begin(), others.end());
     return others;
+}
+
+std::vector<std::uint32_t> GuardedMesh::beside(std::uint32_t v) const {
+    std::vector<std::uint32_t> others = others_around(v);
+    sort_unique(others);
+    return others;
+}
+
+bool GuardedMesh::has_ring(std::uint32_t v) const {
+    const std::vector<std::uint32_t> others = others_around(v);
+    for (std::size_t n = 0; n < others.size(); n += 2) {
+        if (n + 1 == others.size() || others[n] != others[n + 1] || (n > 0 && others[n] == others[n - 1]))
+            return false;
+    }
+    return true;
 }
 
 std::vector<std::uint32_t> GuardedMesh::at_edge(std::uint32_t a, std::uint32_t b) const {

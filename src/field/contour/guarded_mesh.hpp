@@ -38,8 +38,10 @@ class GuardedMesh {
     bool knows(std::uint32_t v) const { return cells_.contains(key(cell_of(position(v)))); }
     // The triangles around a vertex that is known.
     const std::vector<std::uint32_t>& around(std::uint32_t v) const;
-    // The vertices beside one that is known, once for each of its triangles on either side, sorted.
+    // The vertices beside one that is known, sorted.
     std::vector<std::uint32_t> beside(std::uint32_t v) const;
+    // True if each vertex beside `v` is in two of the triangles around it.
+    bool has_ring(std::uint32_t v) const;
     // The triangles at an edge of which an end is known; first those that traverse it from `a` to `b`.
     std::vector<std::uint32_t> at_edge(std::uint32_t a, std::uint32_t b) const;
 
@@ -53,6 +55,7 @@ class GuardedMesh {
     void drop_replaced();
 
   private:
+    std::vector<std::uint32_t> others_around(std::uint32_t v) const;
     using CellAt = std::array<int, 3>;
     CellAt cell_of(Vec3 p) const;
     static std::uint64_t key(const CellAt& cell);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/sort_unique.hpp"
 #include "readers/vrml/fields.hpp"
 
 namespace tribo::readers {
@@ -154,8 +155,7 @@ class FaceSetReader {
         for (const std::uint32_t corner : corners_) {
             if (corner != kFaceEnd) used.push_back(corner);
         }
-        std::sort(used.begin(), used.end());
-        used.erase(std::unique(used.begin(), used.end()), used.end());
+        sort_unique(used);
         surface_.points.reserve(used.size());
         for (const std::size_t i : used)
             surface_.points.push_back({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
