@@ -2,7 +2,9 @@
 // The part's mesh as others take it: from the file, closed, nowhere through itself, and as stock again.
 #include <fstream>
 #include <gtest/gtest.h>
+#include <iterator>
 
+#include "app/run/job_folder.hpp"
 #include "app/run/program.hpp"
 #include "field/self_intersection.hpp"
 #include "files/model/model_file.hpp"
@@ -26,6 +28,33 @@ TEST(PartMesh, of_every_example_is_closed_and_does_not_meet_itself) {
         const Outcome said = run_tribo({"inspect", scratch / "out/machined.stl", "--json"});
         EXPECT_NE(said.out.find("\"closed\": true"), std::string::npos) << said.out;
         EXPECT_NE(said.out.find("\"warnings\": []"), std::string::npos) << said.out;
+    }
+}
+
+std::string text_of(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The part is the design of the job that mills it: what deviates is the mesh. Cusps of the rose end anywhere
+// in their cells. At the foot of the dome a wall, a crest and a floor share cells.
+TEST(PartMesh, deviates_from_the_part_by_less_than_20_um_on_coarse_grids) {
+    struct Case {
+        std::string name, cell;
+    };
+    for (const Case& c : {Case{"rose", "0.4"}, {"rose", "0.2"}, {"dome", "0.4"}}) {
+        const JobFolder folder;
+        const std::string example = kMeshExamples + c.name + "/" + c.name;
+        folder.put(c.name + ".nc", text_of(example + ".nc"));
+        folder.put("job.toml", text_of(example + ".toml"));
+        ASSERT_EQ(folder.render({"--only", "mesh", "--resolution", c.cell}).code, 0) << c.name;
+        folder.put("own.stl", folder.get("machined.stl"));
+        folder.put("job.toml", text_of(example + ".toml") + "\n[part]\nsurface = \"own.stl\"\n");
+        const Outcome run = folder.render({"--only", "summary", "--resolution", c.cell});
+        ASSERT_EQ(run.code, 0) << run.err;
+        const nlohmann::json summary = folder.summary();
+        EXPECT_LT(summary["gouge_max_mm"].get<double>(), 0.02) << c.name << " " << c.cell;
+        EXPECT_LT(summary["rest_max_mm"].get<double>(), 0.02) << c.name << " " << c.cell;
     }
 }
 
