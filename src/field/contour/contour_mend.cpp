@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -23,6 +23,10 @@ namespace {
 constexpr int kMostPasses = 8;
 // At most so many times the given vertices are added. A groove that the grid missed would need many more.
 constexpr std::size_t kMostMore = 3;
+// At most so many changes are tried: a share of the triangles, and these. A mesh of terraces that are much
+// lower than a cell would take more, for most of its triangles.
+constexpr double kTriesPerTriangle = 0.25;
+constexpr std::size_t kMostTries = 20'000;
 // A triangle is measured where its edges, and lines between them, are divided into so many parts.
 constexpr int kParts = 4;
 // At an edge of the surface less than this share of what is too far tells that the mesh may be: the distance
@@ -59,11 +63,13 @@ class Mending {
           off_mm_(off_mm),
           parallel_(parallel),
           most_vertices_(mesh.positions.size() + kMostMore * vertices.size()),
+          tries_left_(kMostTries + static_cast<std::size_t>(kTriesPerTriangle *
+                                                            static_cast<double>(mesh.triangles.size()))),
           active_(vertices.begin(), vertices.end()) {}
 
     // Vertices before folds: a vertex that only has to move would be taken out with its fold.
     void run() {
-        for (int pass = 0; pass < kMostPasses && !active_.empty(); ++pass) {
+        for (int pass = 0; pass < kMostPasses && !active_.empty() && tries_left_ > 0; ++pass) {
             for (const std::uint32_t v : active_) merge(v);
             lift_vertices();
             unfold_triangles();
@@ -101,6 +107,8 @@ class Mending {
     // old ones, and that of triangles which are `worse_mm` off.
     bool attempt(const MeshChange& change, double times = 1, double worse_mm = 0) {
         if (change.now.size() > change.old.size() && next_vertex() >= most_vertices_) return false;
+        if (tries_left_ == 0) return false;
+        --tries_left_;
         const std::vector<Facet> facets = mesh_.facets(change);
         if (!mesh_.is_free(change, facets)) return false;
         double most = 0, now = 0;
@@ -165,7 +173,8 @@ class Mending {
     std::vector<std::uint32_t> triangles_at_active() const {
         std::vector<std::uint32_t> all;
         for (const std::uint32_t v : active_) {
-            if (mesh_.knows(v)) all.insert(all.end(), mesh_.around(v).begin(), mesh_.around(v).end());
+            const std::vector<std::uint32_t> around = mesh_.around(v);
+            all.insert(all.end(), around.begin(), around.end());
         }
         sort_unique(all);
         return all;
@@ -250,7 +259,7 @@ class Mending {
             const Corners c = mesh_.corners(t);
             return closest_on_triangle(to, c[0], c[1], c[2]).squared_mm2;
         };
-        const std::vector<std::uint32_t>& around = mesh_.around(w);
+        const std::vector<std::uint32_t> around = mesh_.around(w);
         insert(*std::min_element(around.begin(), around.end(),
                                  [&](std::uint32_t a, std::uint32_t b) { return away(a) < away(b); }),
                to);
@@ -259,7 +268,8 @@ class Mending {
     bool move(std::span<const std::uint32_t> vertices, double share) {
         MeshChange change;
         for (const std::uint32_t v : vertices) {
-            change.old.insert(change.old.end(), mesh_.around(v).begin(), mesh_.around(v).end());
+            const std::vector<std::uint32_t> around = mesh_.around(v);
+            change.old.insert(change.old.end(), around.begin(), around.end());
             change.places.push_back({v, to_float(lerp(mesh_.position(v), lifts_.at(v), share))});
         }
         sort_unique(change.old);
@@ -402,10 +412,10 @@ class Mending {
     const CarvedField& field_;
     double off_mm_;
     const ParallelFor& parallel_;
-    std::size_t most_vertices_;
-    std::unordered_map<std::uint32_t, double> errors_;  // by triangle
-    std::unordered_map<std::uint32_t, Vec3> lifts_;     // places for vertices that are off the surface
-    std::vector<std::uint32_t> active_, touched_;       // vertices of this round, sorted; and of the next one
+    std::size_t most_vertices_, tries_left_;
+    std::map<std::uint32_t, double> errors_;       // by triangle
+    std::map<std::uint32_t, Vec3> lifts_;          // places for vertices that are off the surface
+    std::vector<std::uint32_t> active_, touched_;  // vertices of this round, sorted; and of the next one
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/sort_unique.hpp"
 
@@ -10,7 +11,9 @@ namespace tribo::field {
 namespace {
 
 // The cells around the triangles at a vertex in which all is known.
-constexpr int kCellsAround = 2;
+constexpr std::uint64_t kCellsAround = 1;
+// Of the number of a cell along each axis.
+constexpr int kCellBits = 21;
 // A triangle is at least this wide, mm: readers drop thinner ones.
 constexpr double kLeastWidthMm = 1e-5;
 
@@ -37,16 +40,33 @@ GuardedMesh::GuardedMesh(TriangleMesh& mesh, std::span<const std::uint32_t> vert
     for (const std::uint32_t v : vertices) asked[v] = true;
     for (const Triangle& t : mesh.triangles) {
         if (std::none_of(t.begin(), t.end(), [&](std::uint32_t v) { return asked[v]; })) continue;
-        each_cell(field::corners(mesh, t), kCellsAround, [&](std::uint64_t cell) {
-            cells_.try_emplace(cell);
+        each_cell(field::corners(mesh, t), [&](std::uint64_t cell) {
+            cells_.push_back(cell);
             return true;
         });
     }
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        const bool outside =
-            each_cell(corners(t), 0, [&](std::uint64_t cell) { return !cells_.contains(cell); });
-        if (!outside) enter(t);
+    sort_unique(cells_);
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::uint64_t step = std::uint64_t{1} << (kCellBits * axis);
+        for (std::size_t n = 0, count = cells_.size(); n < count; ++n) {
+            const std::uint64_t cell = cells_[n];
+            for (std::uint64_t k = 1; k <= kCellsAround; ++k)
+                cells_.insert(cells_.end(), {cell - k * step, cell + k * step});
+        }
+        sort_unique(cells_);
     }
+    lists_.resize(cells_.size());
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) enter(t);
+}
+
+const std::vector<std::uint32_t>* GuardedMesh::list_of(std::uint64_t cell) const {
+    const auto at = std::lower_bound(cells_.begin(), cells_.end(), cell);
+    return at != cells_.end() && *at == cell ? &lists_[static_cast<std::size_t>(at - cells_.begin())]
+                                             : nullptr;
+}
+
+std::vector<std::uint32_t>* GuardedMesh::list_of(std::uint64_t cell) {
+    return const_cast<std::vector<std::uint32_t>*>(std::as_const(*this).list_of(cell));
 }
 
 GuardedMesh::CellAt GuardedMesh::cell_of(Vec3 p) const {
@@ -56,19 +76,18 @@ GuardedMesh::CellAt GuardedMesh::cell_of(Vec3 p) const {
 }
 
 std::uint64_t GuardedMesh::key(const CellAt& cell) {
-    constexpr int kBits = 21;
     std::uint64_t key = 0;
-    for (const int at : cell) key = key << kBits | static_cast<std::uint64_t>(at + kCellsAround);
+    for (const int at : cell) key = key << kCellBits | (static_cast<std::uint64_t>(at) + kCellsAround);
     return key;
 }
 
 template <class Visit>
-bool GuardedMesh::each_cell(const Corners& c, int more, Visit&& visit) const {
+bool GuardedMesh::each_cell(const Corners& c, Visit&& visit) const {
     const Box3 box = box_of(c);
     const CellAt low = cell_of(box.min), high = cell_of(box.max);
-    for (int k = low[2] - more; k <= high[2] + more; ++k) {
-        for (int j = low[1] - more; j <= high[1] + more; ++j) {
-            for (int i = low[0] - more; i <= high[0] + more; ++i) {
+    for (int k = low[2]; k <= high[2]; ++k) {
+        for (int j = low[1]; j <= high[1]; ++j) {
+            for (int i = low[0]; i <= high[0]; ++i) {
                 if (!visit(key({i, j, k}))) return false;
             }
         }
@@ -77,25 +96,28 @@ bool GuardedMesh::each_cell(const Corners& c, int more, Visit&& visit) const {
 }
 
 void GuardedMesh::enter(std::uint32_t triangle) {
-    each_cell(corners(triangle), 0, [&](std::uint64_t cell) {
-        if (const auto at = cells_.find(cell); at != cells_.end()) at->second.push_back(triangle);
+    each_cell(corners(triangle), [&](std::uint64_t cell) {
+        if (std::vector<std::uint32_t>* list = list_of(cell)) list->push_back(triangle);
         return true;
     });
-    for (const std::uint32_t v : mesh_.triangles[triangle]) around_[v].push_back(triangle);
 }
 
 void GuardedMesh::leave(std::uint32_t triangle) {
-    each_cell(corners(triangle), 0, [&](std::uint64_t cell) {
-        if (const auto at = cells_.find(cell); at != cells_.end()) std::erase(at->second, triangle);
+    each_cell(corners(triangle), [&](std::uint64_t cell) {
+        if (std::vector<std::uint32_t>* list = list_of(cell)) std::erase(*list, triangle);
         return true;
     });
-    for (const std::uint32_t v : mesh_.triangles[triangle]) std::erase(around_[v], triangle);
 }
 
-const std::vector<std::uint32_t>& GuardedMesh::around(std::uint32_t v) const {
-    static const std::vector<std::uint32_t> kNone;
-    const auto at = around_.find(v);
-    return at == around_.end() ? kNone : at->second;
+std::vector<std::uint32_t> GuardedMesh::around(std::uint32_t v) const {
+    std::vector<std::uint32_t> found;
+    const std::vector<std::uint32_t>* near = list_of(key(cell_of(position(v))));
+    if (!near) return found;
+    for (const std::uint32_t t : *near) {
+        const Triangle& of = mesh_.triangles[t];
+        if (of[0] == v || of[1] == v || of[2] == v) found.push_back(t);
+    }
+    return found;
 }
 
 // The other vertices of the triangles around a vertex, once for each of these, sorted.
@@ -174,10 +196,10 @@ bool GuardedMesh::is_free(const MeshChange& change, std::span<const Facet> facet
                !surely_apart(facets[n], {mesh_.triangles[t], c});
     };
     for (std::size_t n = 0; n < facets.size(); ++n) {
-        const bool free = each_cell(facets[n].at, 0, [&](std::uint64_t cell) {
-            const auto at = cells_.find(cell);
-            return at != cells_.end() && std::none_of(at->second.begin(), at->second.end(),
-                                                      [&](std::uint32_t t) { return meets(n, t); });
+        const bool free = each_cell(facets[n].at, [&](std::uint64_t cell) {
+            const std::vector<std::uint32_t>* near = list_of(cell);
+            return near &&
+                   std::none_of(near->begin(), near->end(), [&](std::uint32_t t) { return meets(n, t); });
         });
         if (!free) return false;
     }

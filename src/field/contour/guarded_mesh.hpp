@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "field/mesh/triangles_apart.hpp"
@@ -35,9 +34,9 @@ class GuardedMesh {
     Vec3 position(std::uint32_t v) const { return mesh_.position(v); }
     Corners corners(std::uint32_t triangle) const { return field::corners(mesh_, mesh_.triangles[triangle]); }
     // True if all triangles around a vertex are known.
-    bool knows(std::uint32_t v) const { return cells_.contains(key(cell_of(position(v)))); }
+    bool knows(std::uint32_t v) const { return list_of(key(cell_of(position(v)))) != nullptr; }
     // The triangles around a vertex that is known.
-    const std::vector<std::uint32_t>& around(std::uint32_t v) const;
+    std::vector<std::uint32_t> around(std::uint32_t v) const;
     // The vertices beside one that is known, sorted.
     std::vector<std::uint32_t> beside(std::uint32_t v) const;
     // True if each vertex beside `v` is in two of the triangles around it.
@@ -59,18 +58,20 @@ class GuardedMesh {
     using CellAt = std::array<int, 3>;
     CellAt cell_of(Vec3 p) const;
     static std::uint64_t key(const CellAt& cell);
-    // Calls visit(key of the cell) for the cells that a triangle reaches and `more` around them, until it
-    // returns false.
+    // Calls visit(key of the cell) for the cells that a triangle reaches, until it returns false.
     template <class Visit>
-    bool each_cell(const Corners& c, int more, Visit&& visit) const;
+    bool each_cell(const Corners& c, Visit&& visit) const;
+    // The triangles that reach a cell; null: it is not known.
+    const std::vector<std::uint32_t>* list_of(std::uint64_t cell) const;
+    std::vector<std::uint32_t>* list_of(std::uint64_t cell);
     void enter(std::uint32_t triangle);
     void leave(std::uint32_t triangle);
 
     TriangleMesh& mesh_;
     Vec3 origin_;
     double cell_mm_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;   // the triangles that reach them
-    std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> around_;  // by vertex
+    std::vector<std::uint64_t> cells_;               // in which all triangles are known, sorted
+    std::vector<std::vector<std::uint32_t>> lists_;  // for each of them: the triangles that reach it
 };
 
 }  // namespace tribo::field
