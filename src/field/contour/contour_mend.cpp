@@ -25,7 +25,7 @@ constexpr int kMostPasses = 8;
 constexpr std::size_t kMostMore = 3;
 // At most so many changes are tried: a share of the triangles, and these. A mesh of terraces that are much
 // lower than a cell would take more, for most of its triangles.
-constexpr double kTriesPerTriangle = 0.25;
+constexpr double kTriesPerTriangle = 0.1;
 constexpr std::size_t kMostTries = 20'000;
 // A triangle is measured where its edges, and lines between them, are divided into so many parts.
 constexpr int kParts = 4;

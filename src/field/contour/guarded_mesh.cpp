@@ -14,6 +14,8 @@ namespace {
 constexpr std::uint64_t kCellsAround = 1;
 // Of the number of a cell along each axis.
 constexpr int kCellBits = 21;
+// A cell with more triangles is left as it is: each change there would be compared with all of them.
+constexpr std::size_t kMostInCell = 200;
 // A triangle is at least this wide, mm: readers drop thinner ones.
 constexpr double kLeastWidthMm = 1e-5;
 
@@ -56,7 +58,31 @@ GuardedMesh::GuardedMesh(TriangleMesh& mesh, std::span<const std::uint32_t> vert
         sort_unique(cells_);
     }
     lists_.resize(cells_.size());
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) enter(t);
+    enter_all();
+}
+
+// Most triangles of a mesh are far from all known cells. Blocks of cells tell it sooner.
+void GuardedMesh::enter_all() {
+    constexpr int kBlockBits = 3;
+    const auto block_of = [](std::uint64_t cell) {
+        constexpr std::uint64_t kAlong = ((std::uint64_t{1} << (kCellBits - kBlockBits)) - 1) << kBlockBits;
+        return cell & (kAlong | kAlong << kCellBits | kAlong << 2 * kCellBits);
+    };
+    std::vector<std::uint64_t> blocks;
+    for (const std::uint64_t cell : cells_) {
+        if (blocks.empty() || blocks.back() != block_of(cell)) blocks.push_back(block_of(cell));
+    }
+    sort_unique(blocks);
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
+        std::uint64_t last = ~std::uint64_t{0};
+        const bool is_far = each_cell(corners(t), [&](std::uint64_t cell) {
+            const std::uint64_t block = block_of(cell);
+            if (block == last) return true;
+            last = block;
+            return !std::binary_search(blocks.begin(), blocks.end(), block);
+        });
+        if (!is_far) enter(t);
+    }
 }
 
 const std::vector<std::uint32_t>* GuardedMesh::list_of(std::uint64_t cell) const {
@@ -198,7 +224,7 @@ bool GuardedMesh::is_free(const MeshChange& change, std::span<const Facet> facet
     for (std::size_t n = 0; n < facets.size(); ++n) {
         const bool free = each_cell(facets[n].at, [&](std::uint64_t cell) {
             const std::vector<std::uint32_t>* near = list_of(cell);
-            return near &&
+            return near && near->size() <= kMostInCell &&
                    std::none_of(near->begin(), near->end(), [&](std::uint32_t t) { return meets(n, t); });
         });
         if (!free) return false;

@@ -64,6 +64,7 @@ class GuardedMesh {
     // The triangles that reach a cell; null: it is not known.
     const std::vector<std::uint32_t>* list_of(std::uint64_t cell) const;
     std::vector<std::uint32_t>* list_of(std::uint64_t cell);
+    void enter_all();
     void enter(std::uint32_t triangle);
     void leave(std::uint32_t triangle);
 
