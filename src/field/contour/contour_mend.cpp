@@ -33,19 +33,19 @@ constexpr int kParts = 4;
 // there is that from the nearer face.
 constexpr double kTells = 0.1;
 // A new place is on the surface within this share of what is too far.
-constexpr double kOnSurface = 0.1;
-constexpr int kMostSteps = 8;
+constexpr double kPlaced = 0.1;
+constexpr int kMostLooks = 8;
 // A vertex moves at most so many cells.
 constexpr double kMostLift = 2;
 // So many vertices move together.
 constexpr std::size_t kMostTogether = 8;
 // A new vertex is at most so far from the edge that it divides, in its length.
-constexpr double kMostBend = 0.7;
+constexpr double kMostAside = 0.7;
 // Triangles may first leave the surface by so many times as much, squared, as other changes come after it:
 // where vertices stay as many, and where there are more of them.
 constexpr double kWorse = 1.2, kWorseFirst = 2;
 // Edges or triangles that one task looks at.
-constexpr std::size_t kAtOnce = 128;
+constexpr std::size_t kLooksAtOnce = 128;
 // Shorter edges, as a share of what is too far, are in the way of others: they are taken out where the mesh
 // then leaves the surface by at most the second share more.
 constexpr double kShort = 0.5, kWorseForShort = 0.1;
@@ -136,7 +136,7 @@ class Mending {
     // ever nearer to it; or else the surface below it.
     std::optional<Vec3> place(std::span<const Vec3> beside, Vec3 p) const {
         double share = 1;
-        for (int n = 0; n < kMostSteps; ++n, share *= 0.5) {
+        for (int n = 0; n < kMostLooks; ++n, share *= 0.5) {
             Quadric planes;
             for (const Vec3& b : beside) {
                 const Vec3 from = lerp(p, b, share);
@@ -145,12 +145,11 @@ class Mending {
             }
             const Vec3 before = p;
             p = planes.solve();
-            if (n > 0 && distance(before, p) < kOnSurface * off_mm_ && off(p) < kOnSurface * off_mm_)
-                return p;
+            if (n > 0 && distance(before, p) < kPlaced * off_mm_ && off(p) < kPlaced * off_mm_) return p;
         }
         return below(p);
     }
-    std::optional<Vec3> below(Vec3 p) const { return on_surface(field_, p, kOnSurface * off_mm_); }
+    std::optional<Vec3> below(Vec3 p) const { return on_surface(field_, p, kPlaced * off_mm_); }
 
     std::vector<Vec3> centres(std::span<const std::uint32_t> triangles) const {
         std::vector<Vec3> all;
@@ -312,8 +311,9 @@ class Mending {
     }
     // Looks at the mesh from all threads.
     void for_each_of(std::size_t count, const std::function<void(std::size_t)>& look) const {
-        parallel_((count + kAtOnce - 1) / kAtOnce, [&](std::size_t task) {
-            for (std::size_t n = task * kAtOnce; n < std::min(count, (task + 1) * kAtOnce); ++n) look(n);
+        parallel_((count + kLooksAtOnce - 1) / kLooksAtOnce, [&](std::size_t task) {
+            for (std::size_t n = task * kLooksAtOnce; n < std::min(count, (task + 1) * kLooksAtOnce); ++n)
+                look(n);
         });
     }
     // The place on an edge that is farthest from the surface, of its parts; the middle unless another one is
@@ -365,7 +365,7 @@ class Mending {
         }
         std::vector<Vec3> beside = centres(change.old);
         for (const std::uint32_t end : {a, b}) beside.push_back(lerp(p, mesh_.position(end), 0.5));
-        const double most_mm = kMostBend * distance(mesh_.position(a), mesh_.position(b));
+        const double most_mm = kMostAside * distance(mesh_.position(a), mesh_.position(b));
         for (const std::optional<Vec3>& to : {place(beside, p), below(p)}) {
             if (!to || distance(*to, p) > most_mm) continue;
             change.places = {{v, to_float(*to)}};

@@ -16,7 +16,7 @@ constexpr std::uint64_t kCellsAround = 1;
 constexpr int kCellBits = 21;
 // A cell with more triangles is left as it is: each change there would be compared with all of them.
 constexpr std::size_t kMostInCell = 200;
-// A triangle is at least this wide, mm: readers drop thinner ones.
+// A triangle is at least this wide, mm: rounding decides which way a thinner one faces.
 constexpr double kLeastWidthMm = 1e-5;
 
 double width_mm(const Corners& c) {
