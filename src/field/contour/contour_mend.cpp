@@ -20,13 +20,13 @@ namespace tribo::field {
 namespace {
 
 // Rounds over the places that changed in the one before.
-constexpr int kMostPasses = 8;
+constexpr int kMostRounds = 12;
 // At most so many times the given vertices are added. A groove that the grid missed would need many more.
 constexpr std::size_t kMostMore = 3;
 // At most so many changes are tried: a share of the triangles, and these. A mesh of terraces that are much
 // lower than a cell would take more, for most of its triangles.
 constexpr double kTriesPerTriangle = 0.1;
-constexpr std::size_t kMostTries = 20'000;
+constexpr std::size_t kMostTries = 100'000;
 // A triangle is measured where its edges, and lines between them, are divided into so many parts.
 constexpr int kParts = 4;
 // At an edge of the surface less than this share of what is too far tells that the mesh may be: the distance
@@ -42,10 +42,10 @@ constexpr std::size_t kMostTogether = 8;
 // A new vertex is at most so far from the edge that it divides, in its length.
 constexpr double kMostAside = 0.7;
 // Triangles may first leave the surface by so many times as much, squared, as other changes come after it:
-// where vertices stay as many, and where there are more of them.
+// where vertices stay as many, and where there are more of them. Of the first kind, in the first rounds only:
+// else the same edges would flip to and fro.
 constexpr double kWorse = 1.2, kWorseFirst = 2;
-// Edges or triangles that one task looks at.
-constexpr std::size_t kLooksAtOnce = 128;
+constexpr int kPatientRounds = 8;
 // Shorter edges, as a share of what is too far, are in the way of others: they are taken out where the mesh
 // then leaves the surface by at most the second share more.
 constexpr double kShort = 0.5, kWorseForShort = 0.1;
@@ -54,33 +54,31 @@ Vec3 centre(const Corners& c) {
     return (c[0] + c[1] + c[2]) / 3;
 }
 
+// Mends one block of a mesh.
 class Mending {
   public:
-    Mending(TriangleMesh& mesh, const CarvedField& field, double off_mm,
-            std::span<const std::uint32_t> vertices, const ParallelFor& parallel)
-        : mesh_(mesh, vertices, field.cell_mm()),
+    Mending(MeshBlock& mesh, const CarvedField& field, double off_mm, std::size_t most_tries, int round)
+        : mesh_(mesh),
+          active_(mesh.vertices()),
           field_(field),
           off_mm_(off_mm),
-          parallel_(parallel),
-          most_vertices_(mesh.positions.size() + kMostMore * vertices.size()),
-          tries_left_(kMostTries + static_cast<std::size_t>(kTriesPerTriangle *
-                                                            static_cast<double>(mesh.triangles.size()))),
-          active_(vertices.begin(), vertices.end()) {}
+          tries_left_(most_tries),
+          round_(round) {}
 
     // Vertices before folds: a vertex that only has to move would be taken out with its fold.
     void run() {
-        for (int pass = 0; pass < kMostPasses && !active_.empty() && tries_left_ > 0; ++pass) {
-            for (const std::uint32_t v : active_) merge(v);
-            lift_vertices();
-            unfold_triangles();
-            mend_edges();
-            mend_triangles();
-            sort_unique(touched_);
-            active_.swap(touched_);
-            touched_.clear();
+        for (const std::uint32_t v : active_) {
+            if (mesh_.is_near_border(v)) touched_.push_back(v);
         }
-        mesh_.drop_replaced();
+        for (const std::uint32_t v : active_) merge(v);
+        for (const auto step : {&Mending::lift_vertices, &Mending::unfold_triangles, &Mending::mend_edges,
+                                &Mending::mend_triangles}) {
+            if (tries_left_ > 0) (this->*step)();
+        }
     }
+    // The vertices of new triangles, and those at which this block could not do all.
+    const std::vector<std::uint32_t>& touched() const { return touched_; }
+    std::size_t tries_left() const { return tries_left_; }
 
   private:
     double off(Vec3 p) const { return std::abs(field_.distance_mm(p)); }
@@ -106,7 +104,6 @@ class Mending {
     // Makes a change if the new triangles meet nothing, and their error is at most so many times that of the
     // old ones, and that of triangles which are `worse_mm` off.
     bool attempt(const MeshChange& change, double times = 1, double worse_mm = 0) {
-        if (change.now.size() > change.old.size() && next_vertex() >= most_vertices_) return false;
         if (tries_left_ == 0) return false;
         --tries_left_;
         const std::vector<Facet> facets = mesh_.facets(change);
@@ -161,8 +158,8 @@ class Mending {
     void unfold_triangles() {
         std::vector<std::uint32_t> all = triangles_at_active();
         for (const std::uint32_t t : all) {
-            if (is_degenerate(mesh_.mesh().triangles[t]) || !faces_in(mesh_.corners(t))) continue;
-            const Triangle of = mesh_.mesh().triangles[t];
+            if (is_degenerate(mesh_.triangle(t)) || !faces_in(mesh_.corners(t))) continue;
+            const Triangle of = mesh_.triangle(t);
             bool done = false;
             for (std::size_t k = 0; k < 3 && !done; ++k) done = flip(of[k], of[(k + 1) % 3]);
             for (std::size_t k = 0; k < 3 && !done; ++k)
@@ -205,7 +202,7 @@ class Mending {
             if (both != 2) continue;
             MeshChange change{mesh_.around(v), {}, {}};
             for (const std::uint32_t t : change.old) {
-                Triangle now = mesh_.mesh().triangles[t];
+                Triangle now = mesh_.triangle(t);
                 std::replace(now.begin(), now.end(), v, w);
                 if (!is_degenerate(now)) change.now.push_back(now);
             }
@@ -272,14 +269,14 @@ class Mending {
             change.places.push_back({v, to_float(lerp(mesh_.position(v), lifts_.at(v), share))});
         }
         sort_unique(change.old);
-        for (const std::uint32_t t : change.old) change.now.push_back(mesh_.mesh().triangles[t]);
-        return attempt(change, kWorse);
+        for (const std::uint32_t t : change.old) change.now.push_back(mesh_.triangle(t));
+        return attempt(change, round_ < kPatientRounds ? kWorse : 1);
     }
     // Divides a triangle into three.
     bool insert(std::uint32_t triangle, Vec3 at) {
-        if (faces_in(mesh_.corners(triangle))) return false;
-        const Triangle& t = mesh_.mesh().triangles[triangle];
-        const std::uint32_t v = next_vertex();
+        if (faces_in(mesh_.corners(triangle)) || !mesh_.has_new_vertex()) return false;
+        const Triangle& t = mesh_.triangle(triangle);
+        const std::uint32_t v = mesh_.new_vertex();
         return attempt({{triangle}, {{t[0], t[1], v}, {t[1], t[2], v}, {t[2], t[0], v}}, {{v, to_float(at)}}},
                        kWorseFirst);
     }
@@ -297,24 +294,16 @@ class Mending {
                 edges.push_back({0, std::min(v, w), std::max(v, w)});
         }
         sort_unique(edges);
-        for_each_of(edges.size(), [&](std::size_t n) {
-            FarEdge& e = edges[n];
+        for (FarEdge& e : edges) {
             const Vec3 p = farthest(e.from, e.to);
             const double mm = off(p);
             if (mm > off_mm_ || (mm > kTells * off_mm_ && is_below_edge(e.from, e.to, p))) e.less_mm = -mm;
-        });
+        }
         std::erase_if(edges, [](const FarEdge& e) { return e.less_mm == 0; });
         std::sort(edges.begin(), edges.end());
         for (const FarEdge& e : edges) {
             if (!flip(e.from, e.to)) split(e.from, e.to, farthest(e.from, e.to));
         }
-    }
-    // Looks at the mesh from all threads.
-    void for_each_of(std::size_t count, const std::function<void(std::size_t)>& look) const {
-        parallel_((count + kLooksAtOnce - 1) / kLooksAtOnce, [&](std::size_t task) {
-            for (std::size_t n = task * kLooksAtOnce; n < std::min(count, (task + 1) * kLooksAtOnce); ++n)
-                look(n);
-        });
     }
     // The place on an edge that is farthest from the surface, of its parts; the middle unless another one is
     // much farther.
@@ -344,20 +333,20 @@ class Mending {
         const std::uint32_t c = third(change.old[0], a, b), d = third(change.old[1], a, b);
         if (c == d || !mesh_.knows(c) || !mesh_.at_edge(c, d).empty()) return false;
         change.now = {{a, d, c}, {d, b, c}};
-        return attempt(change, kWorse);
+        return attempt(change, round_ < kPatientRounds ? kWorse : 1);
     }
     std::uint32_t third(std::uint32_t triangle, std::uint32_t a, std::uint32_t b) const {
-        const Triangle& t = mesh_.mesh().triangles[triangle];
+        const Triangle& t = mesh_.triangle(triangle);
         return *std::find_if(t.begin(), t.end(), [&](std::uint32_t v) { return v != a && v != b; });
     }
     // Divides an edge at the place for its point p.
     bool split(std::uint32_t a, std::uint32_t b, Vec3 p) {
         MeshChange change{mesh_.at_edge(a, b), {}, {}};
-        const std::uint32_t v = next_vertex();
-        if (change.old.size() != 2) return false;
+        if (change.old.size() != 2 || !mesh_.has_new_vertex()) return false;
+        const std::uint32_t v = mesh_.new_vertex();
         for (const std::uint32_t t : change.old) {
             if (faces_in(mesh_.corners(t))) return false;
-            Triangle one = mesh_.mesh().triangles[t], other = one;
+            Triangle one = mesh_.triangle(t), other = one;
             std::replace(one.begin(), one.end(), a, v);
             std::replace(other.begin(), other.end(), b, v);
             change.now.push_back(one);
@@ -373,17 +362,10 @@ class Mending {
         }
         return false;
     }
-    std::uint32_t next_vertex() const { return static_cast<std::uint32_t>(mesh_.mesh().positions.size()); }
-
     void mend_triangles() {
         const std::vector<std::uint32_t> all = triangles_at_active();
-        std::vector<std::uint8_t> is_far(all.size());
-        for_each_of(all.size(), [&](std::size_t n) {
-            const std::array<Vec3, 4> inside = inside_of(all[n]);
-            is_far[n] = std::any_of(inside.begin(), inside.end(), [&](Vec3 p) { return off(p) > off_mm_; });
-        });
-        for (std::size_t n = 0; n < all.size(); ++n) {
-            if (is_far[n] != 0) mend_triangle(all[n]);
+        for (const std::uint32_t t : all) {
+            if (!is_degenerate(mesh_.triangle(t))) mend_triangle(t);
         }
     }
     std::array<Vec3, 4> inside_of(std::uint32_t triangle) const {
@@ -397,9 +379,9 @@ class Mending {
         const std::array<Vec3, 4> inside = inside_of(t);
         const Vec3 far =
             *std::max_element(inside.begin(), inside.end(), [&](Vec3 p, Vec3 q) { return off(p) < off(q); });
-        if (off(far) < off_mm_) return;
+        if (!(off(far) > off_mm_)) return;
         if (const std::optional<Vec3> to = place(inside, far); to && insert(t, *to)) return;
-        const Triangle of = mesh_.mesh().triangles[t];
+        const Triangle of = mesh_.triangle(t);
         for (std::size_t k = 0; k < 3; ++k) {
             for (const double share : {0.25, 0.5, 0.75}) {
                 const std::uint32_t a = of[k], b = of[(k + 1) % 3];
@@ -408,21 +390,45 @@ class Mending {
         }
     }
 
-    GuardedMesh mesh_;
+    MeshBlock& mesh_;
+    std::span<const std::uint32_t> active_;  // sorted
     const CarvedField& field_;
     double off_mm_;
-    const ParallelFor& parallel_;
-    std::size_t most_vertices_, tries_left_;
-    std::map<std::uint32_t, double> errors_;       // by triangle
-    std::map<std::uint32_t, Vec3> lifts_;          // places for vertices that are off the surface
-    std::vector<std::uint32_t> active_, touched_;  // vertices of this round, sorted; and of the next one
+    std::size_t tries_left_;
+    int round_;
+    std::map<std::uint32_t, double> errors_;  // by triangle
+    std::map<std::uint32_t, Vec3> lifts_;     // places for vertices that are off the surface
+    std::vector<std::uint32_t> touched_;
 };
 
 }  // namespace
 
 void mend(TriangleMesh& mesh, const CarvedField& field, double off_mm,
           std::span<const std::uint32_t> vertices, const ParallelFor& parallel) {
-    if (!vertices.empty()) Mending(mesh, field, off_mm, vertices, parallel).run();
+    if (vertices.empty()) return;
+    std::size_t tries_left =
+        kMostTries + static_cast<std::size_t>(kTriesPerTriangle * static_cast<double>(mesh.triangles.size()));
+    GuardedMesh guarded(mesh, vertices, field.cell_mm(), std::min(kMostMore * vertices.size(), tries_left));
+    std::vector<std::uint32_t> active(vertices.begin(), vertices.end());
+    for (int round = 0; round < kMostRounds && !active.empty() && tries_left > 0; ++round) {
+        std::vector<MeshBlock> blocks = guarded.blocks(active, round);
+        std::vector<Mending> mendings;
+        mendings.reserve(blocks.size());
+        for (MeshBlock& block : blocks) {
+            const std::size_t tries = tries_left * block.vertices().size() / active.size();
+            mendings.emplace_back(block, field, off_mm, tries, round);
+        }
+        parallel(mendings.size(), [&](std::size_t n) { mendings[n].run(); });
+        active.clear();
+        tries_left = 0;
+        for (const Mending& m : mendings) {
+            active.insert(active.end(), m.touched().begin(), m.touched().end());
+            tries_left += m.tries_left();
+        }
+        sort_unique(active);
+        guarded.take_back(blocks);
+    }
+    guarded.drop_unused();
 }
 
 }  // namespace tribo::field
