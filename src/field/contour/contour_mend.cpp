@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <map>
 #include <optional>
@@ -19,14 +20,16 @@
 namespace tribo::field {
 namespace {
 
-// Rounds over the places that changed in the one before.
-constexpr int kMostRounds = 12;
+// Rounds over the places that changed in the one before. First only where the mesh is much too far, by so
+// many times: not all changes can be tried.
+constexpr double kMuchTooFar = 3;
+constexpr int kFirstRounds = 6, kMostRounds = 12;
 // At most so many times the given vertices are added. A groove that the grid missed would need many more.
 constexpr std::size_t kMostMore = 3;
 // At most so many changes are tried: a share of the triangles, and these. A mesh of terraces that are much
 // lower than a cell would take more, for most of its triangles.
-constexpr double kTriesPerTriangle = 0.1;
-constexpr std::size_t kMostTries = 100'000;
+constexpr double kTriesPerTriangle = 0.02;
+constexpr std::size_t kMostTries = 60'000;
 // A triangle is measured where its edges, and lines between them, are divided into so many parts.
 constexpr int kParts = 4;
 // At an edge of the surface less than this share of what is too far tells that the mesh may be: the distance
@@ -374,7 +377,7 @@ class Mending {
         return {middle, lerp(c[0], middle, 0.5), lerp(c[1], middle, 0.5), lerp(c[2], middle, 0.5)};
     }
     // Gives a triangle a vertex at the place for the point inside that is farthest from the surface, or at
-    // the place for a point of its edges.
+    // the place for the middle of an edge.
     void mend_triangle(std::uint32_t t) {
         const std::array<Vec3, 4> inside = inside_of(t);
         const Vec3 far =
@@ -383,10 +386,8 @@ class Mending {
         if (const std::optional<Vec3> to = place(inside, far); to && insert(t, *to)) return;
         const Triangle of = mesh_.triangle(t);
         for (std::size_t k = 0; k < 3; ++k) {
-            for (const double share : {0.25, 0.5, 0.75}) {
-                const std::uint32_t a = of[k], b = of[(k + 1) % 3];
-                if (split(a, b, lerp(mesh_.position(a), mesh_.position(b), share))) return;
-            }
+            const std::uint32_t a = of[k], b = of[(k + 1) % 3];
+            if (split(a, b, lerp(mesh_.position(a), mesh_.position(b), 0.5))) return;
         }
     }
 
@@ -401,22 +402,19 @@ class Mending {
     std::vector<std::uint32_t> touched_;
 };
 
-}  // namespace
-
-void mend(TriangleMesh& mesh, const CarvedField& field, double off_mm,
-          std::span<const std::uint32_t> vertices, const ParallelFor& parallel) {
-    if (vertices.empty()) return;
-    std::size_t tries_left =
-        kMostTries + static_cast<std::size_t>(kTriesPerTriangle * static_cast<double>(mesh.triangles.size()));
-    GuardedMesh guarded(mesh, vertices, field.cell_mm(), std::min(kMostMore * vertices.size(), tries_left));
-    std::vector<std::uint32_t> active(vertices.begin(), vertices.end());
-    for (int round = 0; round < kMostRounds && !active.empty() && tries_left > 0; ++round) {
-        std::vector<MeshBlock> blocks = guarded.blocks(active, round);
+// Mends a mesh at some vertices, where it is off by more than `far_mm`. Returns all that were touched,
+// sorted.
+std::vector<std::uint32_t> mend_in_rounds(GuardedMesh& mesh, const CarvedField& field, double far_mm,
+                                          int rounds, std::vector<std::uint32_t> active,
+                                          std::size_t& tries_left, const ParallelFor& parallel) {
+    std::vector<std::uint32_t> all = active;
+    for (int round = 0; round < rounds && !active.empty() && tries_left > 0; ++round) {
+        std::vector<MeshBlock> blocks = mesh.blocks(active, round);
         std::vector<Mending> mendings;
         mendings.reserve(blocks.size());
         for (MeshBlock& block : blocks) {
             const std::size_t tries = tries_left * block.vertices().size() / active.size();
-            mendings.emplace_back(block, field, off_mm, tries, round);
+            mendings.emplace_back(block, field, far_mm, tries, round);
         }
         parallel(mendings.size(), [&](std::size_t n) { mendings[n].run(); });
         active.clear();
@@ -426,8 +424,25 @@ void mend(TriangleMesh& mesh, const CarvedField& field, double off_mm,
             tries_left += m.tries_left();
         }
         sort_unique(active);
-        guarded.take_back(blocks);
+        all.insert(all.end(), active.begin(), active.end());
+        mesh.take_back(blocks);
     }
+    sort_unique(all);
+    return all;
+}
+
+}  // namespace
+
+void mend(TriangleMesh& mesh, const CarvedField& field, double off_mm,
+          std::span<const std::uint32_t> vertices, const ParallelFor& parallel) {
+    if (vertices.empty()) return;
+    std::size_t tries_left =
+        kMostTries + static_cast<std::size_t>(kTriesPerTriangle * static_cast<double>(mesh.triangles.size()));
+    GuardedMesh guarded(mesh, vertices, field.cell_mm(), std::min(kMostMore * vertices.size(), tries_left));
+    std::vector<std::uint32_t> active(vertices.begin(), vertices.end());
+    active = mend_in_rounds(guarded, field, kMuchTooFar * off_mm, kFirstRounds, std::move(active), tries_left,
+                            parallel);
+    mend_in_rounds(guarded, field, off_mm, kMostRounds, std::move(active), tries_left, parallel);
     guarded.drop_unused();
 }
 

@@ -428,7 +428,7 @@ std::vector<std::uint32_t> refine(TriangleMesh& mesh, const CarvedField& field, 
 
 TriangleMesh fine_contour(const CarvedField& field, const ParallelFor& parallel) {
     // An edge of the surface may lie a little farther from the mesh than the surface at its sides does.
-    constexpr double kSagittaMm = 0.01, kMendedMm = 0.007;
+    constexpr double kSagittaMm = 0.01, kMendedMm = 0.005;
     TriangleMesh mesh = contour(field, parallel);
     const std::vector<std::uint32_t> left = refine(mesh, field, kSagittaMm, parallel);
     mend(mesh, field, kMendedMm, left, parallel);
