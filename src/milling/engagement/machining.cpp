@@ -19,7 +19,7 @@ constexpr double kClearance = 0.05;  // mm
 // may overlap one sweep. With more of them it is cheaper to carve them first.
 constexpr std::size_t kMostSteps = 64, kMostRowsAtOnce = 256, kMostPending = 16;
 // Rows are divided into this number of shares, each with its own probes.
-constexpr std::size_t kShares = 16;
+constexpr std::size_t kShares = 48;
 // The cutting part of a row in which contact begins or ends is divided into this number of rows.
 constexpr int kTurnParts = 4;
 // Margin around a sweep for the rounding of points on its border.

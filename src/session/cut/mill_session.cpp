@@ -21,7 +21,7 @@ constexpr std::size_t kOfferedMoves = 64;
 // Shapes carved again at once.
 constexpr std::size_t kShapesAtOnce = 64;
 // Number of force models, so that several threads have their own.
-constexpr std::size_t kTasks = 8;
+constexpr std::size_t kTasks = 32;
 
 }  // namespace
 
