@@ -97,6 +97,18 @@ TEST(NearestDeviation, a_rib_cut_too_thin_on_one_side_is_gouged_by_as_much) {
     EXPECT_LT(report.rest.mm, 1e-6);
 }
 
+// A cut that ends at a face of the blank leaves a skin there: no material, whatever rounding says.
+TEST(NearestDeviation, a_skin_without_a_thickness_is_no_rest_but_a_thin_wall_is) {
+    const auto designed = design_of(prism({{0, 0}, {40, 0}, {40, 10}, {0, 10}}, {{0, 1, 2}, {0, 2, 3}}));
+    const auto rest_beside = [&](double cut_to) {
+        auto machined = box_field({{0, 0, 0}, {40, kLength, 40}});
+        machined.carve(std::make_unique<field::BoxShape>(Box3{{-1, -1, 10}, {cut_to, 41, 41}}));
+        return compared(machined, designed, 0.5).rest.mm;
+    };
+    for (const double off : {-1e-9, 0.0, 1e-9}) EXPECT_LT(rest_beside(40 + off), 1e-6) << off;
+    EXPECT_NEAR(rest_beside(39.99), 30, 0.01);
+}
+
 // A mesh of the machined part itself, with a corner on its top moved along the top beyond its neighbours: the
 // triangles there fold over each other and show the wrong side, but no point of them is off the part.
 TEST(NearestDeviation, folds_of_a_designs_mesh_are_no_deviation) {

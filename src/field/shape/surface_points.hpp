@@ -18,7 +18,8 @@ std::vector<Vec3> surface_points(const CarvedField& field, std::size_t most,
                                  const ParallelFor& parallel = serial_for);
 
 // Returns the surface point that is reached by steps along the normal from a point close to it. Nothing if
-// the steps do not end on the surface.
+// the steps do not end on the surface, or end on a skin much thinner than 1 um: a cut that ends at a face of
+// the blank leaves one of no thickness.
 std::optional<Vec3> onto_surface(const contact::DistanceField& field, Vec3 point_mm);
 
 }  // namespace tribo::field
