@@ -336,6 +336,22 @@ Vec3 out_of_hollow(const DistanceField& field, Vec3 point_mm, Vec3 q, Vec3 step_
 
 }  // namespace
 
+bool has_material_behind(const DistanceField& field, Vec3 at, Vec3 normal) {
+    const auto falls = [&](Vec3 way) {
+        return falls_inward(field.distance_mm(at + kThinnestWall * normalized(way)));
+    };
+    if (falls(-normal)) return true;
+    const Vec3 u = any_perpendicular(normal), v = cross(normal, u);
+    for (const double down : {1.0, 0.2}) {
+        for (int i = -1; i <= 1; ++i) {
+            for (int j = -1; j <= 1; ++j) {
+                if (falls(i * u + j * v - down * normal)) return true;
+            }
+        }
+    }
+    return false;
+}
+
 void Trail::lead_to(Vec3 end_mm, double near_mm, Vec3 point_mm) {
     std::size_t kept = 0;
     for (const Place& one : all()) {

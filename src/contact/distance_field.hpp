@@ -139,6 +139,18 @@ class DistanceField {
     virtual SurfaceSample nearest(Vec3 point_mm, double within_mm, NearHint& hint) const;
 };
 
+// A thinner wall is none, mm. Where two cuts meet, or a cut and a face of the blank, its thickness is 0 but
+// for rounding.
+inline constexpr double kThinnestWall = 1e-3;
+
+// True if there is material behind a place of the surface, or a little aside behind it, as on an edge. False
+// on a wall that is none. One query, up to 19 on an edge.
+bool has_material_behind(const DistanceField& field, Vec3 at_mm, Vec3 normal);
+// From the change of the distance over kThinnestWall on the way in: whether that is a way into material.
+inline bool falls_inward(double change_mm) {
+    return change_mm < -0.02 * kThinnestWall;
+}
+
 // A surface point that is nearest to a point in its neighbourhood.
 struct Foot {
     SurfaceSample sample;  // of the point; not found: a lower bound of the distance

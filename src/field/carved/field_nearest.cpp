@@ -92,7 +92,50 @@ contact::Foot FieldQuery::below(contact::SurfaceSample depth, Vec3 p) const {
     foot.found = depth.distance_mm > 0 &&
                  (off_mm <= kNoStep || (off_mm <= kStep && !is_listed(depth.piece, foot.at_mm)));
     if (foot.found) foot.sides.put({foot.sample.normal, dot(foot.sample.normal, foot.at_mm), depth.piece}, 0);
+    foot.found = foot.found && !is_skin(foot);
     return foot;
+}
+
+// True if there is no material behind a place of the surface, against the normals of all its sides.
+bool FieldQuery::is_skin(const contact::Foot& foot) const {
+    Vec3 out;
+    for (int n = 0; n < foot.sides.count; ++n) out += foot.sides.side[static_cast<std::size_t>(n)].normal;
+    const Vec3 behind = foot.at_mm - contact::kThinnestWall * normalized(out, foot.sample.normal);
+    return !contact::falls_inward(distance_mm(behind));
+}
+
+// True if a place that the grid shows is between two sides with air all the way from one to the other, also
+// as far around it as it stands for. Where the sides come nearer to each other there may be a wall: it looks
+// there.
+bool FieldQuery::is_gap(Vec3 at) const {
+    constexpr int kMostMoves = 6;
+    constexpr double kAroundCells = 1.5, kOpposite = 0.5, kThinnest = contact::kThinnestWall;
+    const Vec3 shown = at;
+    const double around_mm = kAroundCells * cell_mm;
+    for (int n = 0; n < kMostMoves && distance(at, shown) <= around_mm; ++n) {
+        const contact::SurfaceSample one = sample(at);
+        if (one.distance_mm < -kThinnest) return false;
+        const double way_mm = one.distance_mm + kThinnest;
+        const Vec3 beyond = at - way_mm * one.normal;
+        const contact::SurfaceSample other = sample(beyond);
+        if (other.distance_mm >= kClearCells * cell_mm) return true;
+        if (contact::falls_inward(other.distance_mm)) return false;
+        const double opposite = -dot(one.normal, other.normal);
+        if (opposite < kOpposite) {
+            // Over an edge: what is behind the first side?
+            at = beyond;
+            continue;
+        }
+        // Half way the sides are as near, `half_mm`; along them it changes by `slope` per mm.
+        const double half_way = (one.distance_mm - other.distance_mm + way_mm * opposite) / (1 + opposite);
+        const double half_mm = one.distance_mm - half_way;
+        if (half_mm < -kThinnest) return false;
+        const Vec3 apart = 0.5 * (one.normal + other.normal);
+        const double slope = length(apart);
+        if (half_mm + kThinnest > slope * around_mm) return true;
+        at -= half_way * one.normal + std::min((half_mm + 2 * kThinnest) / slope, cell_mm) / slope * apart;
+    }
+    return distance(at, shown) > around_mm;
 }
 
 bool FieldQuery::is_listed(ShapeId id, Vec3 p) const {
@@ -121,7 +164,8 @@ FieldQuery::Followed FieldQuery::follow(Vec3 p, Vec3 last_mm, const contact::Hal
         start = sides.nearest_on_bend(p, edge, start, last_mm);
     }
     const NearBrick brick(*this, kAir);
-    const contact::Foot foot = contact::along_edge(brick, p, contact::nearest_on(brick, p, start, sides));
+    contact::Foot foot = contact::along_edge(brick, p, contact::nearest_on(brick, p, start, sides));
+    foot.found = foot.found && !is_skin(foot);
     return {foot, foot.found && is_nearest(foot), sides.count == 1};
 }
 

@@ -135,6 +135,8 @@ struct FieldQuery {
     };
     Followed follow(Vec3 point_mm, Vec3 last_mm, const contact::HalfSpaces& sides, bool is_shallow) const;
     contact::Foot below(contact::SurfaceSample depth, Vec3 point_mm) const;
+    bool is_skin(const contact::Foot& foot) const;
+    bool is_gap(Vec3 shown_mm) const;
     bool is_listed(ShapeId id, Vec3 point_mm) const;
     Vec3 surface_behind(Vec3 shown_mm, Vec3 point_mm) const;
 };

@@ -14,6 +14,8 @@ namespace {
 
 // Searches for one point, and in one brick.
 constexpr int kMostSearches = 24, kMostStarts = 10;
+// Places that turn out to be gaps between two sides, for one point.
+constexpr int kMostGaps = 64;
 // How much farther than the nearest place others are searched.
 constexpr double kMarginCells = 0.1;
 // Searches that pass the same place of an edge end at the same place, unless the edge comes nearer there by
@@ -84,6 +86,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search(BrickRef ref, Vec
             contact::nearest_from(brick, p_, from, kLongestCells * field_.cell_mm, &trail_);
         const contact::SurfaceSample at_foot = field_.sample(foot.at_mm);
         if (foot.found && std::abs(at_foot.distance_mm) <= kSameDistance) {
+            if (field_.is_skin(foot)) break;
             found_.put(foot);
             is_proven_ = is_proven_ || field_.is_nearest(foot);
             last = foot;
@@ -286,11 +289,12 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     const double proven = bricks_near.seen_mm();
     BrickCoord b;
     double way = 0;
-    int searches = 0;
+    int searches = 0, gaps = 0;
     bool all_looked = true;
     // Start and end points of the searches, and places of the edges that they passed.
     constexpr std::size_t kMostPassed = 200;
-    FixedList<SeenPlace, kMostPassed + 2 * kMostSearches + 2 + contact::NearHint::kMostOthers> seen;
+    FixedList<SeenPlace, kMostPassed + 2 * kMostSearches + kMostGaps + 2 + contact::NearHint::kMostOthers>
+        seen;
     ShownSurface shown(field_, p_);
     const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
         return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along, true};
@@ -314,6 +318,13 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             if (++searches > kMostSearches) break;
             const std::optional<contact::Foot> foot = search_from(start, ref);
             if (is_proven_) return found_.best();
+            if (!foot && gaps < kMostGaps && field_.is_gap(start.at)) {
+                seen.put(start);
+                ++gaps;
+                --searches;
+                --n;
+                continue;
+            }
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too

@@ -10,28 +10,6 @@ namespace {
 constexpr double kNearCells = 0.5;
 constexpr double kOnSurface = 1e-6;  // mm
 constexpr int kMostSteps = 6;
-// A thinner skin is no material. Where a cut ends at a face of the blank its thickness is 0 but for rounding.
-constexpr double kThinnest = 1e-3;  // mm
-// In material the distance falls at least so much, per length of the way in.
-constexpr double kFalls = 0.02;
-
-// Looks in behind a point of the surface: along the normal, and askew, as a point on an edge or a corner
-// needs it.
-bool has_material_behind(const contact::DistanceField& field, Vec3 p, Vec3 normal) {
-    const auto falls = [&](Vec3 way) {
-        return field.distance_mm(p + kThinnest * normalized(way)) < -kFalls * kThinnest;
-    };
-    if (falls(-normal)) return true;
-    const Vec3 u = any_perpendicular(normal), v = cross(normal, u);
-    for (const double down : {1.0, 0.2}) {
-        for (int i = -1; i <= 1; ++i) {
-            for (int j = -1; j <= 1; ++j) {
-                if (falls(i * u + j * v - down * normal)) return true;
-            }
-        }
-    }
-    return false;
-}
 
 // Calls take(node) for each node of a brick that represents a piece of the surface. Nodes on the upper faces
 // belong to the neighbours.
@@ -62,7 +40,7 @@ std::optional<Vec3> onto_surface(const contact::DistanceField& field, Vec3 p) {
     for (int n = 0; n < kMostSteps; ++n) {
         const contact::SurfaceSample s = field.sample(p);
         if (std::abs(s.distance_mm) <= kOnSurface)
-            return has_material_behind(field, p, s.normal) ? std::optional(p) : std::nullopt;
+            return contact::has_material_behind(field, p, s.normal) ? std::optional(p) : std::nullopt;
         p -= s.distance_mm * s.normal;
     }
     return std::nullopt;

@@ -4,6 +4,19 @@
 #include <cassert>
 
 namespace tribo::haptics {
+namespace {
+
+// A point so near to the surface stands on it, mm.
+constexpr double kStands = 1e-6;
+
+// Whether a point stands on a wall that is none: it may pass.
+bool is_on_skin(const contact::DistanceField& field, Vec3 at, const contact::SurfaceSample& s) {
+    return s.distance_mm < kStands && s.distance_mm > -contact::kThinnestWall &&
+           !contact::has_material_behind(field, at - s.distance_mm * s.normal, s.normal);
+}
+
+}  // namespace
+
 double ProbeGap::set_balls(std::span<const Vec3> offsets_mm) {
     assert(!offsets_mm.empty() && offsets_mm.size() <= kMostBalls);
     double most = 0;
@@ -42,6 +55,7 @@ ProbeGap::Gap ProbeGap::measure_ball(const contact::DistanceField& field, Ball& 
         searches_ += near.searches - before;
     } else {
         s = field.sample(at);
+        if (is_on_skin(field, at, s)) s.distance_mm = contact::kThinnestWall;
     }
     ball.seen_at = at;
     ball.seen_gap = s.distance_mm - radius_;
@@ -92,6 +106,8 @@ double ProbeGap::clearance_mm(const contact::DistanceField& field, Vec3 position
             if (over_touch && ball.touch.sides.count > 1) ball.room = ball.touch;
             clear = std::max(clear, measure_ball(field, ball, ball.room, at).gap_mm);
         }
+        if (radius_ == 0 && clear < kStands && is_on_skin(field, at, field.sample(at)))
+            clear = contact::kThinnestWall;
         if (clear < least) {
             least = clear;
             last_ = n;
