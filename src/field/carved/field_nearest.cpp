@@ -96,12 +96,12 @@ contact::Foot FieldQuery::below(contact::SurfaceSample depth, Vec3 p) const {
     return foot;
 }
 
-// True if there is no material behind a place of the surface, against the normals of all its sides.
+// True if there is no material behind a place of the surface: against the normals of all its sides first.
 bool FieldQuery::is_skin(const contact::Foot& foot) const {
     Vec3 out;
     for (int n = 0; n < foot.sides.count; ++n) out += foot.sides.side[static_cast<std::size_t>(n)].normal;
-    const Vec3 behind = foot.at_mm - contact::kThinnestWall * normalized(out, foot.sample.normal);
-    return !contact::falls_inward(distance_mm(behind));
+    out = normalized(out, foot.sample.normal);
+    return !contact::has_material_behind(NearBrick(*this, kAir), foot.at_mm, out);
 }
 
 // True if a place that the grid shows is between two sides with air all the way from one to the other, also
