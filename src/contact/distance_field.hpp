@@ -146,9 +146,10 @@ inline constexpr double kThinnestWall = 1e-3;
 // True if there is material behind a place of the surface, or a little aside behind it, as on an edge. False
 // on a wall that is none. One query, up to 19 on an edge.
 bool has_material_behind(const DistanceField& field, Vec3 at_mm, Vec3 normal);
-// From the change of the distance over kThinnestWall on the way in: whether that is a way into material.
-inline bool falls_inward(double change_mm) {
-    return change_mm < -0.02 * kThinnestWall;
+// Of the distance kThinnestWall behind a place of the surface: whether that is in material, and not in the
+// rounding of it.
+inline bool falls_inward(double distance_mm) {
+    return distance_mm < -0.02 * kThinnestWall;
 }
 
 // A surface point that is nearest to a point in its neighbourhood.

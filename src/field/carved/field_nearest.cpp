@@ -80,15 +80,16 @@ Vec3 FieldQuery::surface_behind(Vec3 shown, Vec3 p) const {
 // there.
 contact::Foot FieldQuery::below(contact::SurfaceSample depth, Vec3 p) const {
     contact::Foot foot{depth, p - depth.distance_mm * depth.normal, {}, false};
-    const auto found_on_side = [&] {
+    const auto stand_on_side = [&] {
         foot.found = depth.distance_mm > 0;
         foot.sides.put({foot.sample.normal, dot(foot.sample.normal, foot.at_mm), depth.piece}, 0);
-        return foot;
     };
-    // Most often one query tells both: a little deeper the distance is as much less.
-    const double deeper_mm = distance_mm(foot.at_mm - contact::kThinnestWall * depth.normal);
-    if (depth.way_per_mm == 1 && std::abs(deeper_mm + contact::kThinnestWall) <= kNoStep)
-        return found_on_side();
+    // Most often one query tells both, surface and material: a little deeper the distance is as much less.
+    const Vec3 deeper = foot.at_mm - contact::kThinnestWall * depth.normal;
+    if (depth.way_per_mm == 1 && std::abs(distance_mm(deeper) + contact::kThinnestWall) <= kNoStep) {
+        stand_on_side();
+        return foot;
+    }
     double off_mm = std::abs(distance_mm(foot.at_mm));
     if (off_mm > kNoStep && off_mm <= kStep) {
         const contact::SurfaceSample left = sample_piece(depth.piece, foot.at_mm);
@@ -99,7 +100,7 @@ contact::Foot FieldQuery::below(contact::SurfaceSample depth, Vec3 p) const {
     }
     // A brick that knows the piece knows where another one is deeper.
     if (off_mm <= kNoStep || (off_mm <= kStep && !is_listed(depth.piece, foot.at_mm))) {
-        (void)found_on_side();
+        stand_on_side();
         foot.found = foot.found && !is_skin(foot);
     }
     return foot;
