@@ -100,6 +100,43 @@ TEST(NoWall, is_left_between_two_passes_that_meet_or_overlap) {
     }
 }
 
+// The axis leans along the feed, and turns there: both passes end at the plane between them.
+TEST(NoWall, is_left_between_two_passes_of_a_leaning_or_turning_cutter) {
+    const CounterNoise noise(73);
+    std::uint64_t drawn = 0;
+    const auto between = [&](double low, double high) { return low + (high - low) * noise.uniform(drawn++); };
+    for (int n = 0; n < 300; ++n) {
+        constexpr double kOverlaps[] = {0, 1e-9, 1e-7, 1e-5, 1e-3, 0.03, 0.1, 0.25, 0.5, 1};
+        constexpr milling::CutterKind kKinds[] = {milling::CutterKind::flat, milling::CutterKind::bull,
+                                                  milling::CutterKind::ball};
+        milling::Cutter cutter;
+        cutter.kind = kKinds[n % 3];
+        cutter.diameter_mm = kPassDiameter;
+        cutter.length_mm = 40;
+        if (cutter.kind == milling::CutterKind::bull) cutter.corner_mm = between(0.5, 2);
+        field::CarvedField field(std::make_unique<field::BoxShape>(Box3{{-20, -20, -25}, {20, 20, 0}}),
+                                 between(0.2, 0.7));
+        const double turn = between(0, 6.3), lean = between(0, 0.5),
+                     half_turned = (n / 10 % 2) * between(-0.15, 0.15);
+        const Vec3 across{std::cos(turn), std::sin(turn), 0}, along{-across.y, across.x, 0},
+            middle{between(-1, 1), between(-1, 1), -kPassDeep};
+        const auto leaning = [&](double by) { return Vec3{0, 0, std::cos(by)} + std::sin(by) * along; };
+        for (const double side : {-0.5, 0.5}) {
+            const Vec3 at = middle + side * (kPassDiameter - kOverlaps[n % 10] * between(0.5, 1)) * across;
+            motion::Move move;
+            move.start = {at - 4 * along, leaning(lean - half_turned)};
+            move.end = {at + 4 * along, leaning(lean + half_turned)};
+            field.carve(milling::make_sweep(cutter, move));
+        }
+        const double cusp = cutter.kind == milling::CutterKind::ball ? 0.5 * kPassDiameter : cutter.corner_mm,
+                     radius = n % 4 == 0 ? 0 : between(0.1, 1.5);
+        const Vec3 up = (radius + cusp + between(0.1, 4)) * leaning(lean);
+        FieldContact contact(field, no_wall_options(radius));
+        EXPECT_EQ(largest_force_between(contact, middle - 0.9 * across + up, middle + 0.9 * across + up), 0)
+            << n << " " << radius;
+    }
+}
+
 TEST(NoWall, is_another_thing_than_a_thin_wall) {
     const CounterNoise noise(72);
     std::uint64_t drawn = 0;

@@ -114,9 +114,14 @@ bool FieldQuery::is_skin(const contact::Foot& foot) const {
     return !contact::has_material_behind(NearBrick(*this, kAir), foot.at_mm, out);
 }
 
-// True if a place that the grid shows is between two sides with air all the way from one to the other, also
-// as far around it as it stands for. Where the sides come nearer to each other there may be a wall: it looks
-// there.
+// Whether there is no material from a place of the air down to the surface of one side, and behind that.
+bool FieldQuery::is_air_behind(Vec3 at) const {
+    const contact::SurfaceSample one = sample(at);
+    if (one.distance_mm < -contact::kThinnestWall) return false;
+    return !contact::falls_inward(distance_mm(at - (one.distance_mm + contact::kThinnestWall) * one.normal));
+}
+
+// Where the sides come nearer to each other there may be a wall: it looks there.
 bool FieldQuery::is_gap(Vec3 at) const {
     constexpr int kMostMoves = 6;
     constexpr double kAroundCells = 1.5, kOpposite = 0.5, kThinnest = contact::kThinnestWall;

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 #include <span>
 
 #include "contact/distance_field.hpp"
@@ -106,6 +105,9 @@ struct FieldQuery {
     // As in contact::DistanceField, up to 6 bricks away (42 cells); farther away a lower bound.
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm,
                                    contact::NearHint& hint) const;  // field_nearest.cpp
+    // Whether a place that the grid shows (ShownSurface) is between two sides with air all the way from one
+    // to the other, and also around it, as far as their planes show.
+    bool is_gap(Vec3 shown_mm) const;  // field_nearest.cpp
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
     // grid gives the answer.
     bool is_material(Vec3 point_mm, double skin_mm) const;
@@ -136,7 +138,7 @@ struct FieldQuery {
     Followed follow(Vec3 point_mm, Vec3 last_mm, const contact::HalfSpaces& sides, bool is_shallow) const;
     contact::Foot below(contact::SurfaceSample depth, Vec3 point_mm) const;
     bool is_skin(const contact::Foot& foot) const;
-    bool is_gap(Vec3 shown_mm) const;
+    bool is_air_behind(Vec3 at_mm) const;
     bool is_listed(ShapeId id, Vec3 point_mm) const;
     Vec3 surface_behind(Vec3 shown_mm, Vec3 point_mm) const;
 };

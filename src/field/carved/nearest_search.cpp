@@ -14,8 +14,6 @@ namespace {
 
 // Searches for one point, and in one brick.
 constexpr int kMostSearches = 24, kMostStarts = 10;
-// Places that turn out to be gaps between two sides, for one point.
-constexpr int kMostGaps = 64;
 // How much farther than the nearest place others are searched.
 constexpr double kMarginCells = 0.1;
 // Searches that pass the same place of an edge end at the same place, unless the edge comes nearer there by
@@ -73,20 +71,29 @@ contact::Foot FieldQuery::NearestSearch::from(const contact::Foot& known) {
         keep_margin(found_.best(), p_, hint_);
         return found_.best();
     }
-    return among_bricks(lower);
+    const bool knew_gaps = near_gaps_;
+    contact::Foot foot = among_bricks(lower);
+    if (near_gaps_ && !knew_gaps && !is_proven_) foot = among_bricks(lower);
+    return foot;
 }
 
-// From a place, in one brick.
-std::optional<contact::Foot> FieldQuery::NearestSearch::search(BrickRef ref, Vec3 from) {
+// From a place, in one brick. Of material that is thinner by so much on all sides, if that is asked for.
+std::optional<contact::Foot> FieldQuery::NearestSearch::search(BrickRef ref, Vec3 from, double thinner_mm) {
     std::optional<contact::Foot> last;
+    lost_mm_.reset();
     for (int tries = 0; tries < 2; ++tries) {
         ++hint_.searches;
-        const NearBrick brick(field_, ref);
+        const NearBrick brick(field_, ref, thinner_mm);
         const contact::Foot foot =
             contact::nearest_from(brick, p_, from, kLongestCells * field_.cell_mm, &trail_);
-        const contact::SurfaceSample at_foot = field_.sample(foot.at_mm);
+        contact::SurfaceSample at_foot = field_.sample(foot.at_mm);
+        at_foot.distance_mm += thinner_mm;
         if (foot.found && std::abs(at_foot.distance_mm) <= kSameDistance) {
-            if (field_.is_skin(foot)) break;
+            if (field_.is_skin(foot)) {
+                lost_mm_ = foot.at_mm;
+                near_gaps_ = true;
+                break;
+            }
             found_.put(foot);
             is_proven_ = is_proven_ || field_.is_nearest(foot);
             last = foot;
@@ -95,6 +102,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search(BrickRef ref, Vec
             from = foot.at_mm;
             continue;
         }
+        lost_mm_ = foot.at_mm;
         // The shapes of one brick may leave material where another brick has air. Continue from the true
         // surface.
         if (squared_length(foot.at_mm - refuted_) < kSameDistance * kSameDistance) break;
@@ -187,7 +195,8 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
     trail_ = {};
     const Vec3 from = field_.surface_behind(start.at, p_);
     if (const contact::Foot* known = found_below(from)) return *known;
-    const std::optional<contact::Foot> foot = search(ref, from);
+    std::optional<contact::Foot> foot = search(ref, from);
+    if (!foot && lost_mm_) foot = search_between(from, *lost_mm_, ref);
     if (!foot) return foot;
     trail_.lead_to(foot->at_mm, field_.cell_mm, p_);
     const std::span passed = trail_.all();
@@ -200,6 +209,33 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
     if (hint_.memory && (falls || foot->sides.count > 1))
         hint_.memory->from(start.at) = {start.at,    p_,          start.lasts_mm, trail_,
                                         foot->at_mm, foot->sides, field_.change};
+    return foot;
+}
+
+// Towards its tip a cusp may be no thicker than a wall that is none. From a wall, where a search from there
+// has gone on to a place over the tip: the nearest place with material behind the surface.
+std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall, Vec3 air, BrickRef ref) {
+    constexpr int kHalvings = 24;
+    if (!field_.is_air_behind(air)) return std::nullopt;
+    for (int n = 0; n < kHalvings; ++n) {
+        const Vec3 middle = 0.5 * (wall + air);
+        (field_.is_air_behind(middle) ? air : wall) = middle;
+    }
+    // Above that place the sides do not meet: from there both are known.
+    contact::HalfSpaces both;
+    Vec3 at = wall;
+    for (int n = 0; n < 2; ++n) {
+        const contact::SurfaceSample one = field_.sample(at);
+        both.put({one.normal, dot(one.normal, at) - one.way_mm(), one.piece}, 0);
+        at -= (one.distance_mm + 2 * contact::kThinnestWall) * one.normal;
+    }
+    const NearBrick brick(field_, ref, 0.5 * contact::kThinnestWall);
+    const contact::Foot foot =
+        contact::along_edge(brick, p_, contact::nearest_on(brick, p_, wall, both), &trail_);
+    ++hint_.searches;
+    if (!foot.found || std::abs(brick.distance_mm(foot.at_mm)) > kSameDistance || field_.is_skin(foot))
+        return search(ref, wall, 0.5 * contact::kThinnestWall);
+    found_.put(foot);
     return foot;
 }
 
@@ -276,7 +312,8 @@ const contact::Foot* FieldQuery::NearestSearch::found_below(Vec3 from) const {
 }
 
 // At a cusp: the nearest surface point of each brick that may contain one, from the nearest brick on, which
-// is the most likely.
+// is the most likely. Where it meets the first gap it is to be called again: it has not left out gaps till
+// then.
 contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample lower) {
     hint_.rest_mm = 0;
     hint_.others = 0;
@@ -289,13 +326,14 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     const double proven = bricks_near.seen_mm();
     BrickCoord b;
     double way = 0;
-    int searches = 0, gaps = 0;
+    int searches = 0;
     bool all_looked = true;
     // Start and end points of the searches, and places of the edges that they passed.
     constexpr std::size_t kMostPassed = 200;
-    FixedList<SeenPlace, kMostPassed + 2 * kMostSearches + kMostGaps + 2 + contact::NearHint::kMostOthers>
-        seen;
+    FixedList<SeenPlace, kMostPassed + 2 * kMostSearches + 2 + contact::NearHint::kMostOthers> seen;
     ShownSurface shown(field_, p_);
+    const bool knew_gaps = near_gaps_;
+    if (knew_gaps) shown.leave_out_gaps();
     const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
         return {foot.at_mm, foot.sample.normal, foot.sides.edge_at(foot.at_mm).along, true};
     };
@@ -317,20 +355,16 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             }
             if (++searches > kMostSearches) break;
             const std::optional<contact::Foot> foot = search_from(start, ref);
-            if (is_proven_) return found_.best();
-            if (!foot && gaps < kMostGaps && field_.is_gap(start.at)) {
-                seen.put(start);
-                ++gaps;
-                --searches;
-                --n;
-                continue;
-            }
+            // Over the edge of a rib, or out of a gap, it goes on to a place beyond: another start leads to
+            // what is nearest here.
+            const double on_mm = foot ? foot->sample.distance_mm - distance(p_, start.at) : 0;
+            near_gaps_ = near_gaps_ || ((!foot || on_mm > 0) && field_.is_gap(start.at));
+            if (is_proven_ || near_gaps_ != knew_gaps) return found_.best();
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
             }
-            // It went on over the edge of a rib: another start leads to what is nearest here.
-            if (foot->sample.distance_mm > distance(p_, start.at) + field_.cell_mm) continue;
+            if (on_mm > field_.cell_mm) continue;
             const SeenPlace end = place_of(*foot);
             start.along = end.along;
             start.lasts_mm = std::min(start.lasts_mm, trail_.lasts_mm(p_));

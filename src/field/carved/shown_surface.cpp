@@ -13,8 +13,9 @@ constexpr double kOneStart = 1, kBesideStart = 0.5, kBesideEnd = 0.75, kAlongEdg
 // distances come from one side if they rise by at least this share of the full slope; or by less, as those in
 // the sweep of a tilted cutter do, but at least kLeastSlope, and evenly to this share of a cell.
 constexpr double kOneWay = 0.5, kOneSlope = 0.97, kLeastSlope = 0.7, kEven = 0.1;
-// The surface that a node represents: radius around it, and largest bulge, in cells.
-constexpr double kAround = 0.87, kBulge = 0.1;
+// The surface that a node represents: radius around it, and largest bulge, in cells. Where others may be left
+// out it represents what is on the way to the next node, too.
+constexpr double kAround = 0.87, kBulge = 0.1, kAroundGaps = kAround + 1, kBulgeAtGaps = 0.5;
 // Surface between two nodes goes on around no corner if the product of their normals is at least kGoesOn, and
 // has no edge if the normals part by no more than kNoEdge.
 constexpr double kGoesOn = 0.95, kNoEdge = 2e-3;
@@ -78,8 +79,10 @@ void ShownSurface::look_at(BrickCoord where, double within_mm) {
     const Brick& brick = (*field.pool)[ref];
     const double cell_mm = field.cell_mm;
     const Vec3 q = (point_ - field.lattice(where).node(0, 0, 0)) * field.per_cell;
-    const double reach = within_mm * field.per_cell + FieldQuery::kClearCells;
-    const double most = within_mm + kAround * cell_mm, most_row = most + kClose * cell_mm;
+    const double reach =
+        within_mm * field.per_cell + FieldQuery::kClearCells + (no_gaps_ ? kAroundGaps - kAround : 0);
+    const double most = within_mm + (no_gaps_ ? kAroundGaps : kAround) * cell_mm,
+                 most_row = most + kClose * cell_mm;
     const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
     const auto high = [&](double at) {
         return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
@@ -201,13 +204,16 @@ bool ShownSurface::visit_nearer(const ShownPlace& from, IsEnough&& is_enough) co
 // That place leads where this one does.
 bool ShownSurface::comes_nearer(const ShownPlace& from) const {
     const SeenPlace& here = from.place;
-    const auto is_of_same = [&](const SeenPlace& there, Vec3, double) { return there.shape == here.shape; };
+    const auto is_of_same = [&](const SeenPlace& there, Vec3, double) {
+        return there.shape == here.shape && !is_left_out(there);
+    };
     // Another shape goes on where this one ends, if there is no edge between them.
     const auto is_of_next = [&](const SeenPlace& there, Vec3 step, double) {
         const double most = kNoEdge * length(step);
         const auto parts = [&](Vec3 turn) { return dot(step, turn) > most; };
         return there.shape != here.shape && !parts(there.normal - here.normal) &&
-               !parts(field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at));
+               !parts(field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at)) &&
+               !is_left_out(there);
     };
     return visit_nearer(from, is_of_same) || (!here.corner && visit_nearer(from, is_of_next));
 }
@@ -225,8 +231,8 @@ double ShownSurface::steepest_fall_mm(const ShownPlace& from) const {
 bool ShownSurface::none_nearer(const SeenPlace& place, double than_mm) const {
     const Vec3 way = point_ - place.at;
     const double over = dot(way, place.normal), aside = length(way - over * place.normal);
-    const double side = std::max(0.0, aside - kAround * field_->cell_mm),
-                 up = std::max(0.0, over - kBulge * field_->cell_mm);
+    const double side = std::max(0.0, aside - (no_gaps_ ? kAroundGaps : kAround) * field_->cell_mm),
+                 up = std::max(0.0, over - (no_gaps_ ? kBulgeAtGaps : kBulge) * field_->cell_mm);
     return side * side + up * up >= than_mm * than_mm;
 }
 
@@ -244,7 +250,7 @@ bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const
 bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place) {
     while (here_.size() > 0) {
         const ShownPlace one = here_.take(*std::ranges::min_element(here_, {}, &ShownPlace::way_mm));
-        if (none_nearer(one.place, within_mm)) continue;
+        if (none_nearer(one.place, within_mm) || is_left_out(one.place)) continue;
         if (passed_.is_full())
             whole_ = false;
         else

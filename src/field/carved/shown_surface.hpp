@@ -46,6 +46,8 @@ class ShownSurface {
     // one of `but`, and from which the surface does not come nearer towards another place. Returns false if
     // there is none.
     bool take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place);
+    // Leaves out places between two sides with air all the way from one to the other (is_gap), from now on.
+    void leave_out_gaps() { no_gaps_ = true; }
     // False if there were more places than could be kept. The nearest ones are.
     bool is_whole() const { return whole_; }
     // How far the point may move, up to `most_mm`, until a place that is not seen may become the nearest of
@@ -62,6 +64,7 @@ class ShownSurface {
     template <class IsEnough>
     bool visit_nearer(const ShownPlace& from, IsEnough&& is_enough) const;
     bool leads_to(const SeenPlace& place, const SeenPlace& seen) const;
+    bool is_left_out(const SeenPlace& place) const { return no_gaps_ && field_->is_gap(place.at); }
     bool comes_nearer(const ShownPlace& from) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 
@@ -77,7 +80,7 @@ class ShownSurface {
     // Some of the normals that shapes have told, and the number of each by its place in the grid, from 1 on.
     mutable FixedList<KnownNormal, 255> known_;
     mutable std::array<std::uint8_t, 256> known_at_{};
-    bool whole_ = true;
+    bool whole_ = true, no_gaps_ = false;
 };
 
 }  // namespace tribo::field
