@@ -215,7 +215,7 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
         }
     }
     const double alike = dot(g.normal, from.normal);
-    const bool other_side = alike < kOtherSide && size > gap_.radius_mm();
+    const bool other_side = alike < kOtherSide && size > gap_.radius_mm() && g.gap_mm <= kSkin;
     if (alone && (other_side || (alike > kOneSide && g.gap_mm < -kOff * size))) return Landing::none;
     to = from;
     if (g.gap_mm > kOff * size + kSkin) {
