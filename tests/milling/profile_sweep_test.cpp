@@ -13,7 +13,7 @@
 #include "milling/sweep/sweep.hpp"
 #include "milling/tool/convex_zones.hpp"
 
-namespace tribo::milling {
+namespace tribo::milling::profiles {
 namespace {
 
 using motion::Move;
@@ -223,4 +223,4 @@ TEST(ProfileSweep, of_a_hollow_arc_above_a_wall_ends_at_the_bottom) {
 }
 
 }  // namespace
-}  // namespace tribo::milling
+}  // namespace tribo::milling::profiles

@@ -123,7 +123,7 @@ bool FieldQuery::is_air_behind(Vec3 at) const {
 
 // Where the sides come nearer to each other there may be a wall: it looks there.
 bool FieldQuery::is_gap(Vec3 at) const {
-    constexpr int kMostMoves = 6;
+    constexpr int kMostMoves = 16;
     constexpr double kAroundCells = 1.5, kOpposite = 0.5, kThinnest = contact::kThinnestWall;
     const Vec3 shown = at;
     const double around_mm = kAroundCells * cell_mm;

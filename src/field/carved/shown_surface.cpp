@@ -201,21 +201,20 @@ bool ShownSurface::visit_nearer(const ShownPlace& from, IsEnough&& is_enough) co
 }
 
 // Whether the surface comes nearer to the point all the way to a place that a node beside this one shows.
-// That place leads where this one does.
+// That place leads where this one does. Beside a gap a search goes on into that: it has an end of its own.
 bool ShownSurface::comes_nearer(const ShownPlace& from) const {
     const SeenPlace& here = from.place;
-    const auto is_of_same = [&](const SeenPlace& there, Vec3, double) {
-        return there.shape == here.shape && !is_left_out(there);
-    };
+    const auto is_of_same = [&](const SeenPlace& there, Vec3, double) { return there.shape == here.shape; };
     // Another shape goes on where this one ends, if there is no edge between them.
     const auto is_of_next = [&](const SeenPlace& there, Vec3 step, double) {
         const double most = kNoEdge * length(step);
         const auto parts = [&](Vec3 turn) { return dot(step, turn) > most; };
         return there.shape != here.shape && !parts(there.normal - here.normal) &&
-               !parts(field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at)) &&
-               !is_left_out(there);
+               !parts(field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at));
     };
-    return visit_nearer(from, is_of_same) || (!here.corner && visit_nearer(from, is_of_next));
+    const auto is_gap = [&](const SeenPlace& there, Vec3, double) { return is_left_out(there); };
+    return (visit_nearer(from, is_of_same) || (!here.corner && visit_nearer(from, is_of_next))) &&
+           !(no_gaps_ && visit_nearer(from, is_gap));
 }
 
 double ShownSurface::steepest_fall_mm(const ShownPlace& from) const {
