@@ -122,19 +122,19 @@ bool FieldQuery::is_air_behind(Vec3 at) const {
 }
 
 // Where the sides come nearer to each other there may be a wall: it looks there.
-bool FieldQuery::is_gap(Vec3 at) const {
+std::optional<Vec3> FieldQuery::wall_at(Vec3 shown) const {
     constexpr int kMostMoves = 16;
     constexpr double kAroundCells = 1.5, kOpposite = 0.5, kThinnest = contact::kThinnestWall;
-    const Vec3 shown = at;
     const double around_mm = kAroundCells * cell_mm;
+    Vec3 at = shown;
     for (int n = 0; n < kMostMoves && distance(at, shown) <= around_mm; ++n) {
         const contact::SurfaceSample one = sample(at);
-        if (one.distance_mm < -kThinnest) return false;
+        if (one.distance_mm < -kThinnest) return at;
         const double way_mm = one.distance_mm + kThinnest;
         const Vec3 beyond = at - way_mm * one.normal;
         const contact::SurfaceSample other = sample(beyond);
-        if (other.distance_mm >= kClearCells * cell_mm) return true;
-        if (contact::falls_inward(other.distance_mm)) return false;
+        if (other.distance_mm >= kClearCells * cell_mm) break;
+        if (contact::falls_inward(other.distance_mm)) return beyond;
         const double opposite = -dot(one.normal, other.normal);
         if (opposite < kOpposite) {
             // Over an edge: what is behind the first side?
@@ -144,13 +144,14 @@ bool FieldQuery::is_gap(Vec3 at) const {
         // Half way the sides are as near, `half_mm`; along them it changes by `slope` per mm.
         const double half_way = (one.distance_mm - other.distance_mm + way_mm * opposite) / (1 + opposite);
         const double half_mm = one.distance_mm - half_way;
-        if (half_mm < -kThinnest) return false;
+        const Vec3 middle = at - half_way * one.normal;
+        if (half_mm < -kThinnest) return middle;
         const Vec3 apart = 0.5 * (one.normal + other.normal);
         const double slope = length(apart);
-        if (half_mm + kThinnest > slope * around_mm) return true;
-        at -= half_way * one.normal + std::min((half_mm + 2 * kThinnest) / slope, cell_mm) / slope * apart;
+        if (half_mm + kThinnest > slope * around_mm) break;
+        at = middle - std::min((half_mm + 2 * kThinnest) / slope, cell_mm) / slope * apart;
     }
-    return distance(at, shown) > around_mm;
+    return std::nullopt;
 }
 
 bool FieldQuery::is_listed(ShapeId id, Vec3 p) const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "contact/distance_field.hpp"
@@ -105,9 +106,9 @@ struct FieldQuery {
     // As in contact::DistanceField, up to 6 bricks away (42 cells); farther away a lower bound.
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm,
                                    contact::NearHint& hint) const;  // field_nearest.cpp
-    // Whether a place that the grid shows (ShownSurface) is between two sides with air all the way from one
-    // to the other, and also around it, as far as their planes show.
-    bool is_gap(Vec3 shown_mm) const;  // field_nearest.cpp
+    // Near a place that the grid shows (ShownSurface), a place with material behind the surface. None: that is
+    // in a gap, between two sides with air all the way from one to the other.
+    std::optional<Vec3> wall_at(Vec3 shown_mm) const;  // field_nearest.cpp
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
     // grid gives the answer.
     bool is_material(Vec3 point_mm, double skin_mm) const;

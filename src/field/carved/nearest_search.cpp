@@ -196,7 +196,12 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
     const Vec3 from = field_.surface_behind(start.at, p_);
     if (const contact::Foot* known = found_below(from)) return *known;
     std::optional<contact::Foot> foot = search(ref, from);
-    if (!foot && lost_mm_) foot = search_between(from, *lost_mm_, ref);
+    if (!foot && lost_mm_) {
+        const Vec3 lost = *lost_mm_;
+        const std::optional<Vec3> wall = field_.wall_at(start.at);
+        if (wall) foot = search_between(*wall, lost, ref);
+        near_gaps_ = near_gaps_ || !wall;
+    }
     if (!foot) return foot;
     trail_.lead_to(foot->at_mm, field_.cell_mm, p_);
     const std::span passed = trail_.all();
@@ -358,7 +363,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             // Over the edge of a rib, or out of a gap, it goes on to a place beyond: another start leads to
             // what is nearest here.
             const double on_mm = foot ? foot->sample.distance_mm - distance(p_, start.at) : 0;
-            near_gaps_ = near_gaps_ || ((!foot || on_mm > 0) && field_.is_gap(start.at));
+            near_gaps_ = near_gaps_ || (on_mm > 0 && !field_.wall_at(start.at));
             if (is_proven_ || near_gaps_ != knew_gaps) return found_.best();
             if (!foot) {
                 doubt = true;

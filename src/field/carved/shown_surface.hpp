@@ -46,7 +46,7 @@ class ShownSurface {
     // one of `but`, and from which the surface does not come nearer towards another place. Returns false if
     // there is none.
     bool take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place);
-    // Leaves out places between two sides with air all the way from one to the other (is_gap), from now on.
+    // Leaves out places between two sides with air all the way from one to the other (FieldQuery::wall_at), from now on.
     void leave_out_gaps() { no_gaps_ = true; }
     // False if there were more places than could be kept. The nearest ones are.
     bool is_whole() const { return whole_; }
@@ -64,7 +64,7 @@ class ShownSurface {
     template <class IsEnough>
     bool visit_nearer(const ShownPlace& from, IsEnough&& is_enough) const;
     bool leads_to(const SeenPlace& place, const SeenPlace& seen) const;
-    bool is_left_out(const SeenPlace& place) const { return no_gaps_ && field_->is_gap(place.at); }
+    bool is_left_out(const SeenPlace& place) const { return no_gaps_ && !field_->wall_at(place.at); }
     bool comes_nearer(const ShownPlace& from) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 
