@@ -106,8 +106,8 @@ struct FieldQuery {
     // As in contact::DistanceField, up to 6 bricks away (42 cells); farther away a lower bound.
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm,
                                    contact::NearHint& hint) const;  // field_nearest.cpp
-    // Near a place that the grid shows (ShownSurface), a place with material behind the surface. None: that is
-    // in a gap, between two sides with air all the way from one to the other.
+    // Near a place that the grid shows (ShownSurface), a place with material behind the surface. None: that
+    // is in a gap, between two sides with air all the way from one to the other.
     std::optional<Vec3> wall_at(Vec3 shown_mm) const;  // field_nearest.cpp
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
     // grid gives the answer.

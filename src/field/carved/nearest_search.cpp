@@ -353,7 +353,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
         ++hint_.searches;
         shown.look_at(b, reach());
         SeenPlace start;
-        for (int n = 0; shown.take(reach(), seen, start); ++n) {
+        for (int n = 0; shown.take(reach(), found_.distance_mm(), seen, start); ++n) {
             if (n == kMostStarts) {
                 all_looked = false;
                 break;

@@ -23,6 +23,8 @@ constexpr double kGoesOn = 0.95, kNoEdge = 2e-3;
 constexpr double kTooLittle = 0.02;
 // No point of the surface is farther than this from every node, in cells.
 constexpr double kClose = FieldQuery::kClearCells + FieldQuery::kRounding;
+// What is nearer by less than this is not looked for, in cells.
+constexpr double kMuchNearer = 1e-3;
 // A place of the blank is in its brick up to this, mm.
 constexpr double kInside = 2e-5;
 
@@ -246,7 +248,16 @@ bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const
     return std::abs(way_mm) < kOwn * field_->cell_mm || ahead_mm * way_mm > 0;
 }
 
-bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place) {
+// Whether the side of a place is nearer to the point than what was found, also where searches from places
+// alike have led to that: within a cell there may be two sides.
+bool ShownSurface::is_nearer(const SeenPlace& place, double nearest_mm) const {
+    const double ball_mm = nearest_mm - kMuchNearer * field_->cell_mm;
+    return dot(point_ - place.at, place.normal) < ball_mm &&
+           field_->distance_mm(point_ - ball_mm * place.normal) < 0;
+}
+
+bool ShownSurface::take(double within_mm, double nearest_mm, std::span<const SeenPlace> but,
+                        SeenPlace& place) {
     while (here_.size() > 0) {
         const ShownPlace one = here_.take(*std::ranges::min_element(here_, {}, &ShownPlace::way_mm));
         if (none_nearer(one.place, within_mm) || is_left_out(one.place)) continue;
@@ -256,6 +267,10 @@ bool ShownSurface::take(double within_mm, std::span<const SeenPlace> but, SeenPl
             passed_.put(one);
         const bool is_seen = std::any_of(but.begin(), but.end(),
                                          [&](const SeenPlace& other) { return leads_to(one.place, other); });
+        if (is_seen && is_nearer(one.place, nearest_mm)) {
+            place = one.place;
+            return true;
+        }
         if (is_seen || comes_nearer(one)) continue;
         place = one.place;
         return true;

@@ -43,10 +43,11 @@ class ShownSurface {
     // forgets those of the brick before that were not taken.
     void look_at(BrickCoord brick, double within_mm);
     // Takes the nearest place near which the surface may be less than `within_mm` away, that is not alike to
-    // one of `but`, and from which the surface does not come nearer towards another place. Returns false if
-    // there is none.
-    bool take(double within_mm, std::span<const SeenPlace> but, SeenPlace& place);
-    // Leaves out places between two sides with air all the way from one to the other (FieldQuery::wall_at), from now on.
+    // one of `but` or is nearer than the nearest place, which is `nearest_mm` away, and from which the
+    // surface does not come nearer towards another place. Returns false if there is none.
+    bool take(double within_mm, double nearest_mm, std::span<const SeenPlace> but, SeenPlace& place);
+    // Leaves out places between two sides with air all the way from one to the other (FieldQuery::wall_at),
+    // from now on.
     void leave_out_gaps() { no_gaps_ = true; }
     // False if there were more places than could be kept. The nearest ones are.
     bool is_whole() const { return whole_; }
@@ -66,6 +67,7 @@ class ShownSurface {
     bool leads_to(const SeenPlace& place, const SeenPlace& seen) const;
     bool is_left_out(const SeenPlace& place) const { return no_gaps_ && !field_->wall_at(place.at); }
     bool comes_nearer(const ShownPlace& from) const;
+    bool is_nearer(const SeenPlace& place, double nearest_mm) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 
     const FieldQuery* field_;
