@@ -128,6 +128,7 @@ class FieldContact {
 
     ProbeContact tick(Vec3 probe, double turned_mm) noexcept;
     bool is_wedged() const;
+    bool is_open(Vec3 from, Vec3 to);
     void release_stuck_proxy(Vec3 probe);
     Next climb();
     Next fly(Vec3 probe);

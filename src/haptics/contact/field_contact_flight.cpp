@@ -17,19 +17,25 @@ constexpr double kPeek = 1e-5, kGrazing = 0.1;
 
 }  // namespace
 
-// A ball as wide as a slot may be wedged at its mouth, where no free ball has room to lead it out. Where the
-// probe has long been in air, and no wall is between its centre and the proxy's, it begins anew from there.
+// Whether no wall is between two places of the probe's centre.
+bool FieldContact::is_open(Vec3 from, Vec3 to) {
+    for (int links = 0;; ++links) {
+        const double way = distance(to, from), free = clearance_mm(from, way) + gap_.radius_mm();
+        if (way <= free) return true;
+        if (free < kSkin || links == kMostLinks || !budget(1)) return false;
+        from += (free / way) * (to - from);
+    }
+}
+
+// A ball as wide as a slot may be wedged at its mouth, or creep along its walls, where no free ball has room
+// to lead it on. Where the probe has long been in air, and no wall is between its centre and the proxy's,
+// straight or along the sides that hold the proxy, it begins anew from there.
 void FieldContact::release_stuck_proxy(Vec3 probe) {
     stuck_s_ = 0;
     const double room = measure(probe).gap_mm;
     if (room <= kSkin) return;
-    Vec3 centre = at_.proxy;
-    for (int links = 0;; ++links) {
-        const double way = distance(probe, centre), free = clearance_mm(centre, way) + gap_.radius_mm();
-        if (way <= free) break;
-        if (free < kSkin || links == kMostLinks || !budget(1)) return;
-        centre += (free / way) * (probe - centre);
-    }
+    const Vec3 aside = at_.proxy + split(at_, probe).rest;
+    if (!is_open(at_.proxy, probe) && !(is_open(at_.proxy, aside) && is_open(aside, probe))) return;
     anchor_ = {probe, room};
     at_.proxy = last_proxy_ = probe;
     phase_ = Phase::free;
