@@ -248,8 +248,8 @@ bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const
     return std::abs(way_mm) < kOwn * field_->cell_mm || ahead_mm * way_mm > 0;
 }
 
-// Whether the side of a place is nearer to the point than what was found, also where searches from places
-// alike have led to that: within a cell there may be two sides.
+// Whether the side of a place is nearer to the point than what was found. Within a cell there may be two
+// sides: also where a place is alike to one of the other side, or leads there.
 bool ShownSurface::is_nearer(const SeenPlace& place, double nearest_mm) const {
     const double ball_mm = nearest_mm - kMuchNearer * field_->cell_mm;
     return dot(point_ - place.at, place.normal) < ball_mm &&
@@ -265,13 +265,9 @@ bool ShownSurface::take(double within_mm, double nearest_mm, std::span<const See
             whole_ = false;
         else
             passed_.put(one);
-        const bool is_seen = std::any_of(but.begin(), but.end(),
-                                         [&](const SeenPlace& other) { return leads_to(one.place, other); });
-        if (is_seen && is_nearer(one.place, nearest_mm)) {
-            place = one.place;
-            return true;
-        }
-        if (is_seen || comes_nearer(one)) continue;
+        const auto leads_there = [&](const SeenPlace& other) { return leads_to(one.place, other); };
+        const bool is_known = std::any_of(but.begin(), but.end(), leads_there) || comes_nearer(one);
+        if (is_known && !is_nearer(one.place, nearest_mm)) continue;
         place = one.place;
         return true;
     }
