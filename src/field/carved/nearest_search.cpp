@@ -365,6 +365,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             const double on_mm = foot ? foot->sample.distance_mm - distance(p_, start.at) : 0;
             near_gaps_ = near_gaps_ || (on_mm > 0 && !field_.wall_at(start.at));
             if (is_proven_ || near_gaps_ != knew_gaps) return found_.best();
+            if (!foot && distance(p_, start.at) >= reach() + field_.cell_mm) continue;
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
