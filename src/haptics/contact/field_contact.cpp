@@ -31,6 +31,9 @@ constexpr double kSameSide = 0.9999;
 // So far a corner is looked into behind its sides, mm, where the way between the others goes behind it by at
 // least this share.
 constexpr double kLook = 1e-3, kLeastBehind = 0.01;
+// Where another side is in the way, a step ends this share of its length above the plane that it comes from
+// only in a hollow: 0.16 in one that bends by kOneSide.
+constexpr double kHollow = 0.1;
 // A step along a corner has left a side, or passed it, by this share of its length.
 constexpr double kLeft = 1e-3;
 // A landing this much (of the step's length) off the trial is looked at again, so often.
@@ -198,6 +201,19 @@ bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
     return bends;
 }
 
+// Down from a trial onto the one side that is seen from there.
+void FieldContact::land_on_side(Place& to, Vec3 trial, ProbeGap::Gap seen, double size_mm) {
+    to.proxy = trial;
+    for (int k = 0;; ++k) {
+        to.sides = {};
+        to.normal = seen.normal;
+        (void)correct(to, seen);
+        // After a leap in height what was nearest from the trial may not be so where it lands.
+        if (k == kMostLandings || to.leap_mm <= kLeap * size_mm + kSkin || !budget(kStepQueries)) return;
+        seen = measure(to.proxy);
+    }
+}
+
 // A step along the surface, and down onto it.
 FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Split& way, Place& to) {
     const double size = length(step);
@@ -231,17 +247,7 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
         return Landing::over_edge;
     }
     if (alone && !wedged && (g.gap_mm > kSkin || alike > kOneSide)) {
-        to.proxy = trial;
-        to.sides = {};
-        to.normal = g.normal;
-        (void)correct(to, g);
-        // After a leap in height what was nearest from the trial may not be so where it lands.
-        for (int k = 0; k < kMostLandings && to.leap_mm > kLeap * size + kSkin && budget(kStepQueries); ++k) {
-            g = measure(to.proxy);
-            to.sides = {};
-            to.normal = g.normal;
-            (void)correct(to, g);
-        }
+        land_on_side(to, trial, g, size);
         return Landing::on_surface;
     }
     if (g.gap_mm < -kSkin || alone) {
@@ -261,6 +267,11 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
             // Up the other side it is no nearer: along the corner, or as far down as that goes.
             const Vec3 start = corner.nearest(from.proxy);
             to.proxy = start + limited(corner.nearest(probe) - start, size);
+        }
+        if (alone && dot(from.normal, to.proxy - from.proxy) > kHollow * size) {
+            // In a hollow the side that was seen is the same one, bent: the other plane holds no longer.
+            land_on_side(to, trial, g, size);
+            return Landing::on_surface;
         }
         // A side that is far behind by now would hold the proxy where there is air.
         to.sides = {};

@@ -144,6 +144,7 @@ class FieldContact {
     enum class Landing { on_surface, over_edge, none };
     Landing land(const Place& from, Vec3 step, const Split& way, Place& to);
     bool correct(Place& place, const ProbeGap::Gap& seen) const;
+    void land_on_side(Place& to, Vec3 trial, ProbeGap::Gap seen, double size_mm);
     void stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces& others);
     bool push_out();
     void renew_anchor();
