@@ -87,15 +87,21 @@ FieldContact::Next FieldContact::fly(Vec3 probe) {
 }
 
 // Along a surface there is only room for small balls; a little above it the next ones are larger. Near a wall
-// there is less room so high, and more a little lower.
+// there is less room so high, and more a little lower. In a corner there is room only away from both sides.
 void FieldContact::lift(Anchor& a, Vec3 up, double height) {
-    for (; height > 2 * a.radius && budget(kStepQueries); height *= kShorter) {
-        const Vec3 at = a.at + height * up;
-        const Anchor above{at, clearance_mm(at, height)};
-        if (above.radius > std::max(a.radius, kSkin) && height <= a.radius + above.radius + bridge_mm()) {
-            a = above;
-            return;
+    for (int sides = 1; sides <= 2; ++sides) {
+        for (double h = height; h > std::max(2 * a.radius, kLowest) && budget(kStepQueries); h *= kShorter) {
+            const Vec3 at = a.at + h * up;
+            const Anchor above{at, clearance_mm(at, h)};
+            if (above.radius > std::max(a.radius, kSkin) && h <= a.radius + above.radius + bridge_mm()) {
+                a = above;
+                return;
+            }
         }
+        if (a.radius >= kSkin || !budget(kStepQueries)) return;
+        const Vec3 both = normalized(up + measure(a.at + kLowest * up).normal, up);
+        if (dot(both, up) > kOneSide) return;
+        up = both;
     }
 }
 
