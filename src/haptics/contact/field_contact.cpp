@@ -430,7 +430,7 @@ bool FieldContact::push_out() {
         stand_on(g, g.gap_mm > -kLens ? at_.sides : contact::HalfSpaces{});
     }
     anchor_.radius = measure(anchor_.at).gap_mm;
-    phase_ = anchor_.radius > kSkin ? Phase::free : Phase::climb;
+    phase_ = anchor_.radius > -kLens ? Phase::free : Phase::climb;
     at_.proxy = anchor_.at;
     return true;
 }
