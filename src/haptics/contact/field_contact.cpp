@@ -353,6 +353,8 @@ FieldContact::Next FieldContact::look_behind_a_side() {
     at_.normal = up_from(at_);
     settled_ = false;
     moved_ = true;
+    // A longer step would see it again from too far.
+    stride_mm_ = std::min(stride_mm_, kLook / kShorter);
     return Next::more;
 }
 
