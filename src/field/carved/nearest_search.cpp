@@ -353,7 +353,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
         ++hint_.searches;
         shown.look_at(b, reach());
         SeenPlace start;
-        for (int n = 0; shown.take(reach(), found_.distance_mm(), seen, start); ++n) {
+        for (int n = 0; shown.take(reach(), found_.best(), seen, start); ++n) {
             if (n == kMostStarts) {
                 all_looked = false;
                 break;
@@ -396,7 +396,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     if (!(doubt && found_.none()) && found_.distance_mm() <= proven + kSameDistance) {
         if (all_looked && shown.is_whole() && !doubt && !found_.none()) {
             hint_.proved_at_mm = p_;
-            hint_.rest_mm = std::min({found_.rest_mm(), reach(), proven});
+            hint_.rest_mm = std::min({found_.rest_mm(), reach(), proven, shown.other_side_mm()});
             for (const contact::Foot& foot : found_.all().subspan(1))
                 hint_.other[static_cast<std::size_t>(hint_.others++)] = {foot.at_mm, foot.sides,
                                                                          foot.sample.distance_mm};

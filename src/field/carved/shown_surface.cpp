@@ -248,16 +248,19 @@ bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const
     return std::abs(way_mm) < kOwn * field_->cell_mm || ahead_mm * way_mm > 0;
 }
 
-// Whether the side of a place is nearer to the point than what was found. Within a cell there may be two
-// sides: also where a place is alike to one of the other side, or leads there.
-bool ShownSurface::is_nearer(const SeenPlace& place, double nearest_mm) const {
-    const double ball_mm = nearest_mm - kMuchNearer * field_->cell_mm;
-    return dot(point_ - place.at, place.normal) < ball_mm &&
-           field_->distance_mm(point_ - ball_mm * place.normal) < 0;
+// How far the side of a place is from the point, if it is there: over a place that is known, as it is alike
+// to one of another side, or leads there. Within a cell there may be two sides.
+double ShownSurface::side_mm(const SeenPlace& place, double least_mm, double most_mm) const {
+    const double over_mm = std::max(dot(point_ - place.at, place.normal), least_mm);
+    const double behind_mm = over_mm + kMuchNearer * field_->cell_mm;
+    if (behind_mm >= most_mm || field_->distance_mm(point_ - behind_mm * place.normal) >= 0) return most_mm;
+    return over_mm;
 }
 
-bool ShownSurface::take(double within_mm, double nearest_mm, std::span<const SeenPlace> but,
+bool ShownSurface::take(double within_mm, const contact::Foot& nearest, std::span<const SeenPlace> but,
                         SeenPlace& place) {
+    const double nearest_mm = nearest.sample.distance_mm,
+                 ball_mm = nearest_mm - 2 * kMuchNearer * field_->cell_mm;
     while (here_.size() > 0) {
         const ShownPlace one = here_.take(*std::ranges::min_element(here_, {}, &ShownPlace::way_mm));
         if (none_nearer(one.place, within_mm) || is_left_out(one.place)) continue;
@@ -267,7 +270,11 @@ bool ShownSurface::take(double within_mm, double nearest_mm, std::span<const See
             passed_.put(one);
         const auto leads_there = [&](const SeenPlace& other) { return leads_to(one.place, other); };
         const bool is_known = std::any_of(but.begin(), but.end(), leads_there) || comes_nearer(one);
-        if (is_known && !is_nearer(one.place, nearest_mm)) continue;
+        if (is_known && side_mm(one.place, ball_mm, nearest_mm) == nearest_mm) {
+            if (dot(one.place.normal, nearest.sample.normal) < kGoesOn)
+                other_side_mm_ = std::min(other_side_mm_, side_mm(one.place, nearest_mm, within_mm));
+            continue;
+        }
         place = one.place;
         return true;
     }

@@ -43,9 +43,12 @@ class ShownSurface {
     // forgets those of the brick before that were not taken.
     void look_at(BrickCoord brick, double within_mm);
     // Takes the nearest place near which the surface may be less than `within_mm` away, that is not alike to
-    // one of `but` or is nearer than the nearest place, which is `nearest_mm` away, and from which the
-    // surface does not come nearer towards another place. Returns false if there is none.
-    bool take(double within_mm, double nearest_mm, std::span<const SeenPlace> but, SeenPlace& place);
+    // one of `but` and from which the surface does not come nearer towards another place; or one whose side
+    // is nearer than `nearest`, the nearest place that was found. Returns false if there is none.
+    bool take(double within_mm, const contact::Foot& nearest, std::span<const SeenPlace> but,
+              SeenPlace& place);
+    // How far the nearest other side is that was passed over, since a search has led from there to `nearest`.
+    double other_side_mm() const { return other_side_mm_; }
     // Leaves out places between two sides with air all the way from one to the other (FieldQuery::wall_at),
     // from now on.
     void leave_out_gaps() { no_gaps_ = true; }
@@ -67,7 +70,7 @@ class ShownSurface {
     bool leads_to(const SeenPlace& place, const SeenPlace& seen) const;
     bool is_left_out(const SeenPlace& place) const { return no_gaps_ && !field_->wall_at(place.at); }
     bool comes_nearer(const ShownPlace& from) const;
-    bool is_nearer(const SeenPlace& place, double nearest_mm) const;
+    double side_mm(const SeenPlace& place, double least_mm, double most_mm) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 
     const FieldQuery* field_;
@@ -83,6 +86,7 @@ class ShownSurface {
     mutable FixedList<KnownNormal, 255> known_;
     mutable std::array<std::uint8_t, 256> known_at_{};
     bool whole_ = true, no_gaps_ = false;
+    double other_side_mm_ = SeenPlace::kUnlimited;
 };
 
 }  // namespace tribo::field
