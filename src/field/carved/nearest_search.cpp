@@ -221,6 +221,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
 // has gone on to a place over the tip: the nearest place with material behind the surface.
 std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall, Vec3 air, BrickRef ref) {
     constexpr int kHalvings = 24;
+    constexpr double kAtTip = 2e-5;  // mm
     if (!field_.is_air_behind(air)) return std::nullopt;
     for (int n = 0; n < kHalvings; ++n) {
         const Vec3 middle = 0.5 * (wall + air);
@@ -235,11 +236,17 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
         at -= (one.distance_mm + 2 * contact::kThinnestWall) * one.normal;
     }
     const NearBrick brick(field_, ref, 0.5 * contact::kThinnestWall);
-    const contact::Foot foot =
+    contact::Foot foot =
         contact::along_edge(brick, p_, contact::nearest_on(brick, p_, wall, both), &trail_);
     ++hint_.searches;
-    if (!foot.found || std::abs(brick.distance_mm(foot.at_mm)) > kSameDistance || field_.is_skin(foot))
+    // The search ends a little off: sides that are nearly parallel meet at no sharp line.
+    if (std::abs(brick.distance_mm(foot.at_mm)) > kAtTip || field_.is_skin(foot))
         return search(ref, wall, 0.5 * contact::kThinnestWall);
+    if (!foot.found) {
+        const double far_mm = distance(p_, foot.at_mm);
+        foot.sample = {far_mm, (p_ - foot.at_mm) / far_mm, both.side[0].piece};
+        foot.found = true;
+    }
     found_.put(foot);
     return foot;
 }
