@@ -200,6 +200,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
         const Vec3 lost = *lost_mm_;
         const std::optional<Vec3> wall = field_.wall_at(start.at);
         if (wall) foot = search_between(*wall, lost, ref);
+        if (wall && !foot) foot = through_material(*wall);
         near_gaps_ = near_gaps_ || !wall;
     }
     if (!foot) return foot;
@@ -236,8 +237,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
         at -= (one.distance_mm + 2 * contact::kThinnestWall) * one.normal;
     }
     const NearBrick brick(field_, ref, 0.5 * contact::kThinnestWall);
-    contact::Foot foot =
-        contact::along_edge(brick, p_, contact::nearest_on(brick, p_, wall, both), &trail_);
+    contact::Foot foot = contact::along_edge(brick, p_, contact::nearest_on(brick, p_, wall, both), &trail_);
     ++hint_.searches;
     // The search ends a little off: sides that are nearly parallel meet at no sharp line.
     if (std::abs(brick.distance_mm(foot.at_mm)) > kAtTip || field_.is_skin(foot))
@@ -247,6 +247,35 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
         foot.sample = {far_mm, (p_ - foot.at_mm) / far_mm, both.side[0].piece};
         foot.found = true;
     }
+    found_.put(foot);
+    return foot;
+}
+
+// From a place in material, where all searches along the surface have failed: nearer to the point, in ever
+// shorter steps, as long as that is in material too. The wall is not lost then, and found to 0.1 um where it
+// is not thinner than that.
+std::optional<contact::Foot> FieldQuery::NearestSearch::through_material(Vec3 wall) {
+    constexpr double kShortest = 1e-4;  // mm
+    constexpr int kMostSteps = 400;
+    if (!contact::falls_inward(field_.distance_mm(wall))) return std::nullopt;
+    double step_mm = field_.cell_mm;
+    for (int steps = 0; step_mm >= kShortest && steps < kMostSteps;) {
+        const Vec3 ahead = normalized(p_ - wall), u = any_perpendicular(ahead), v = cross(ahead, u);
+        bool has_moved = false;
+        for (int n = 0; n < 27 && !has_moved; ++n) {
+            // Straight ahead first.
+            const int i = 1 - n / 9, j = n / 3 % 3 == 2 ? -1 : n / 3 % 3, k = n % 3 == 2 ? -1 : n % 3;
+            const Vec3 next = wall + step_mm * (i * ahead + j * u + k * v);
+            if (distance(p_, next) >= distance(p_, wall)) continue;
+            ++steps;
+            if (!contact::falls_inward(field_.distance_mm(next))) continue;
+            wall = next;
+            has_moved = true;
+        }
+        if (!has_moved) step_mm *= 0.5;
+    }
+    const double far_mm = distance(p_, wall);
+    const contact::Foot foot{{far_mm, (p_ - wall) / far_mm, field_.sample(wall).piece}, wall, {}, true};
     found_.put(foot);
     return foot;
 }
