@@ -87,7 +87,7 @@ ProbeContact FieldContact::tick(Vec3 probe, double turned_mm) noexcept {
     searches_before_ = gap_.searches();
     if (!is_finite(probe)) return {};
     if (phase_ == Phase::begin) {
-        at_.proxy = probe;
+        at_.proxy = rested_mm_ = probe;
         sticking_ = true;
         phase_ = Phase::climb;
         last_probe_ = probe;
@@ -123,6 +123,7 @@ ProbeContact FieldContact::tick(Vec3 probe, double turned_mm) noexcept {
                        distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe);
     stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
+    if (settled_) rested_mm_ = at_.proxy;
     ProbeContact c = answer(probe);
     limit_growth(c, distance(probe, last_probe_) + turned_mm);
     last_probe_ = probe;
@@ -417,8 +418,8 @@ void FieldContact::stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces
 }
 
 // Brings a proxy that has come to stand in material (a nearest place was missed, or the probe has turned) out
-// along the normals; where that does not do, to the air that it is tied to. Whether it stood there, or on
-// another side than was known.
+// along the normals; where that does not do, back to the air that it is tied to or to where it last rested.
+// Whether it stood there, or on another side than was known.
 bool FieldContact::push_out() {
     for (int n = 0; n < kMostPushes; ++n) {
         const ProbeGap::Gap g = measure(at_.proxy);
@@ -431,9 +432,13 @@ bool FieldContact::push_out() {
         // After a hardly noticeable push the other sides still hold it.
         stand_on(g, g.gap_mm > -kLens ? at_.sides : contact::HalfSpaces{});
     }
-    anchor_.radius = measure(anchor_.at).gap_mm;
-    phase_ = anchor_.radius > -kLens ? Phase::free : Phase::climb;
-    at_.proxy = anchor_.at;
+    for (const Vec3 back : {anchor_.at, rested_mm_}) {
+        anchor_ = {back, measure(back).gap_mm};
+        at_.proxy = back;
+        phase_ = Phase::free;
+        if (anchor_.radius > -kLens) return true;
+    }
+    phase_ = Phase::climb;
     return true;
 }
 

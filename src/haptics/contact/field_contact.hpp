@@ -190,6 +190,7 @@ class FieldContact {
     Anchor anchor_;
     double chained_mm_ = 0;  // length of the last chain
     Place at_;               // the contact, tied
+    Vec3 rested_mm_;         // the proxy when it last settled
     // Of the last tick.
     Vec3 last_proxy_, last_probe_;
     double last_force_n_ = 0;
