@@ -13,7 +13,7 @@ TEST(CarvedDistance, is_that_of_the_shape_that_leaves_least) {
     constexpr double kError = 2e-4;
     int near_surface = 0;
     for (std::uint64_t n = 0; n < 60; ++n) {
-        test::Draw draw(97, n);
+        test::Draw draw(94, n);
         const test::AnyPasses stock(draw, 0, n % 2 == 0);
         const double cell = stock.field->cell_mm();
         for (int k = 0; k < 20000; ++k) {
