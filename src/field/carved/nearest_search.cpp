@@ -200,7 +200,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
         const Vec3 lost = *lost_mm_;
         const std::optional<Vec3> wall = field_.wall_at(start.at);
         if (wall) foot = search_between(*wall, lost, ref);
-        if (wall && !foot) foot = through_material(*wall);
+        if (wall && !foot) foot = around(*wall, ref);
         near_gaps_ = near_gaps_ || !wall;
     }
     if (!foot) return foot;
@@ -251,10 +251,10 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
     return foot;
 }
 
-// From a place in material, where all searches along the surface have failed: nearer to the point, in ever
-// shorter steps, as long as that is in material too. The wall is not lost then, and found to 0.1 um where it
-// is not thinner than that.
-std::optional<contact::Foot> FieldQuery::NearestSearch::through_material(Vec3 wall) {
+// From a place in material, where searches along the surface have failed or gone elsewhere: nearer to the
+// point, in ever shorter steps, as long as that is in material too. Then once more along the surface. The wall
+// is not lost then.
+std::optional<contact::Foot> FieldQuery::NearestSearch::around(Vec3 wall, BrickRef ref) {
     constexpr double kShortest = 1e-4;  // mm
     constexpr int kMostSteps = 400;
     if (!contact::falls_inward(field_.distance_mm(wall))) return std::nullopt;
@@ -277,6 +277,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::through_material(Vec3 wa
     const double far_mm = distance(p_, wall);
     const contact::Foot foot{{far_mm, (p_ - wall) / far_mm, field_.sample(wall).piece}, wall, {}, true};
     found_.put(foot);
+    (void)search(ref, wall);
     return foot;
 }
 
@@ -405,6 +406,10 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             if (!foot) {
                 doubt = true;
                 break;  // the other cusps of this brick would fail too
+            }
+            if (on_mm > 0 && distance(foot->at_mm, start.at) > field_.cell_mm) {
+                // It has passed what it began at.
+                if (const auto wall = field_.wall_at(start.at)) (void)around(*wall, ref);
             }
             if (on_mm > field_.cell_mm) continue;
             const SeenPlace end = place_of(*foot);

@@ -58,7 +58,7 @@ class FieldQuery::NearestSearch {
     std::optional<contact::Foot> remembered(SeenPlace& start);
     std::optional<contact::Foot> search_from(SeenPlace& start, BrickRef ref);
     std::optional<contact::Foot> search_between(Vec3 wall, Vec3 air, BrickRef ref);
-    std::optional<contact::Foot> through_material(Vec3 wall);
+    std::optional<contact::Foot> around(Vec3 wall, BrickRef ref);
     double comes_nearer_mm(Vec3 from, Vec3 to, Vec3 edge) const;
     double falls_to_mm(const contact::Foot& foot, Vec3 from) const;
     const contact::Foot* found_below(Vec3 from) const;
