@@ -17,10 +17,11 @@ constexpr double kPeek = 1e-5, kGrazing = 0.1;
 
 }  // namespace
 
-// Whether no wall is between two places of the probe's centre.
+// Whether no wall is between two places of the centres of the probe's balls.
 bool FieldContact::is_open(Vec3 from, Vec3 to) {
     for (int links = 0;; ++links) {
-        const double way = distance(to, from), free = clearance_mm(from, way) + gap_.radius_mm();
+        ++queries_;
+        const double way = distance(to, from), free = gap_.room_of_centres_mm(*field_, from, way);
         if (way <= free) return true;
         if (free < kSkin || links == kMostLinks || !budget(1)) return false;
         from += (free / way) * (to - from);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "haptics/contact/probe_gap.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace tribo::haptics {
@@ -75,6 +76,15 @@ void ProbeGap::nearest_first(Vec3 position_mm, double most, const Ask& ask) {
     for (std::size_t n = 0; n < count_; ++n) {
         if (n != first && ball_[n].bound(position_mm + ball_[n].offset) < most) most = ask(n, most);
     }
+}
+
+double ProbeGap::room_of_centres_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm) {
+    double least = 1e30;
+    for (std::size_t n = 0; n < count_; ++n) {
+        ++queries_;
+        least = std::min(least, field.clearance_mm(position_mm + ball_[n].offset, enough_mm));
+    }
+    return least;
 }
 
 ProbeGap::Gap ProbeGap::measure(const contact::DistanceField& field, Vec3 position_mm) {

@@ -51,6 +51,8 @@ class ProbeGap {
     // near.
     double clearance_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm,
                         bool over_touch = false);
+    // The same for balls without a radius: for their centres alone. Without a search.
+    double room_of_centres_mm(const contact::DistanceField& field, Vec3 position_mm, double enough_mm);
     Vec3 offset_mm(std::size_t ball) const { return ball_[ball].offset; }
     // Queries of the field so far, and searches along the surface that they needed (contact::NearHint).
     long queries() const { return queries_; }
