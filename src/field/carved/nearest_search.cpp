@@ -252,8 +252,8 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
 }
 
 // From a place in material, where searches along the surface have failed or gone elsewhere: nearer to the
-// point, in ever shorter steps, as long as that is in material too. Then once more along the surface. The wall
-// is not lost then.
+// point, in ever shorter steps, as long as that is in material too. Then once more along the surface. The
+// wall is not lost then.
 std::optional<contact::Foot> FieldQuery::NearestSearch::around(Vec3 wall, BrickRef ref) {
     constexpr double kShortest = 1e-4;  // mm
     constexpr int kMostSteps = 400;
