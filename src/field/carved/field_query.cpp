@@ -19,10 +19,12 @@ FieldQuery::Exact FieldQuery::exact(BrickRef ref, Vec3 p, bool any_air) const {
     // to be shown not to give it.
     const std::uint16_t likely = likely_in(brick, p);
     Exact best{-near_mm, 0};
-    if (likely != Brick::kUnlisted)
+    if (likely != Brick::kUnlisted) {
         deepen(best, brick.shapes[likely], p);
-    else if (!any_air)  // deep in a shape that is near the surface nowhere in the brick: it is not listed
+    } else if (!any_air) {
+        // Deep in a shape that is near the surface nowhere in the brick: that is not listed.
         best.distance_mm = std::max(best.distance_mm, clear_of_nodes(brick, p));
+    }
     for (std::size_t n = 0; n < brick.shapes.size() && !(any_air && best.distance_mm > 0); ++n) {
         if (n != likely) deepen(best, brick.shapes[n], p);
     }

@@ -27,6 +27,8 @@ constexpr double kOnEdge = 0.25, kOnSide = 1;
 constexpr double kLongestWay = 8, kPart = 0.25, kLess = 0.05;
 // So far beside an edge the surface belongs to the end of a search on it, in cells.
 constexpr double kOwnBeside = 0.1;
+// A wall that is none vanishes when the material is made thinner by this on all sides, mm.
+constexpr double kThinner = 0.5 * contact::kThinnestWall;
 // Longest step of a search along the surface, in cells. Grooves are two cells wide at least: a longer step
 // may pass over the cusp beside the start.
 constexpr double kLongestCells = 0.65;
@@ -236,12 +238,12 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
         both.put({one.normal, dot(one.normal, at) - one.way_mm(), one.piece}, 0);
         at -= (one.distance_mm + 2 * contact::kThinnestWall) * one.normal;
     }
-    const NearBrick brick(field_, ref, 0.5 * contact::kThinnestWall);
+    const NearBrick brick(field_, ref, kThinner);
     contact::Foot foot = contact::along_edge(brick, p_, contact::nearest_on(brick, p_, wall, both), &trail_);
     ++hint_.searches;
     // The search ends a little off: sides that are nearly parallel meet at no sharp line.
     if (std::abs(brick.distance_mm(foot.at_mm)) > kAtTip || field_.is_skin(foot))
-        return search(ref, wall, 0.5 * contact::kThinnestWall);
+        return search(ref, wall, kThinner);
     if (!foot.found) {
         const double far_mm = distance(p_, foot.at_mm);
         foot.sample = {far_mm, (p_ - foot.at_mm) / far_mm, both.side[0].piece};
@@ -256,10 +258,10 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
 // wall is not lost then.
 std::optional<contact::Foot> FieldQuery::NearestSearch::around(Vec3 wall, BrickRef ref) {
     constexpr double kShortest = 1e-4;  // mm
-    constexpr int kMostSteps = 400;
+    constexpr int kMostTries = 400;
     if (!contact::falls_inward(field_.distance_mm(wall))) return std::nullopt;
     double step_mm = field_.cell_mm;
-    for (int steps = 0; step_mm >= kShortest && steps < kMostSteps;) {
+    for (int tries = 0; step_mm >= kShortest && tries < kMostTries;) {
         const Vec3 ahead = normalized(p_ - wall), u = any_perpendicular(ahead), v = cross(ahead, u);
         bool has_moved = false;
         for (int n = 0; n < 27 && !has_moved; ++n) {
@@ -267,7 +269,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::around(Vec3 wall, BrickR
             const int i = 1 - n / 9, j = n / 3 % 3 == 2 ? -1 : n / 3 % 3, k = n % 3 == 2 ? -1 : n % 3;
             const Vec3 next = wall + step_mm * (i * ahead + j * u + k * v);
             if (distance(p_, next) >= distance(p_, wall)) continue;
-            ++steps;
+            ++tries;
             if (!contact::falls_inward(field_.distance_mm(next))) continue;
             wall = next;
             has_moved = true;

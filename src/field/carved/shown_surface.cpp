@@ -24,7 +24,7 @@ constexpr double kTooLittle = 0.02;
 // No point of the surface is farther than this from every node, in cells.
 constexpr double kClose = FieldQuery::kClearCells + FieldQuery::kRounding;
 // What is nearer by less than this is not looked for, in cells.
-constexpr double kMuchNearer = 1e-3;
+constexpr double kLeastNearer = 1e-3;
 // A place of the blank is in its brick up to this, mm.
 constexpr double kInside = 2e-5;
 
@@ -81,10 +81,8 @@ void ShownSurface::look_at(BrickCoord where, double within_mm) {
     const Brick& brick = (*field.pool)[ref];
     const double cell_mm = field.cell_mm;
     const Vec3 q = (point_ - field.lattice(where).node(0, 0, 0)) * field.per_cell;
-    const double reach =
-        within_mm * field.per_cell + FieldQuery::kClearCells + (no_gaps_ ? kAroundGaps - kAround : 0);
-    const double most = within_mm + (no_gaps_ ? kAroundGaps : kAround) * cell_mm,
-                 most_row = most + kClose * cell_mm;
+    const double reach = within_mm * field.per_cell + FieldQuery::kClearCells + around_cells() - kAround;
+    const double most = within_mm + around_cells() * cell_mm, most_row = most + kClose * cell_mm;
     const auto low = [&](double at) { return std::max(0, static_cast<int>(std::ceil(at - reach))); };
     const auto high = [&](double at) {
         return std::min(kBrickCells, static_cast<int>(std::floor(at + reach)));
@@ -228,11 +226,15 @@ double ShownSurface::steepest_fall_mm(const ShownPlace& from) const {
     return most;
 }
 
+double ShownSurface::around_cells() const {
+    return no_gaps_ ? kAroundGaps : kAround;
+}
+
 // Returns true if the surface that a place represents is nowhere nearer to the point than `than_mm`.
 bool ShownSurface::none_nearer(const SeenPlace& place, double than_mm) const {
     const Vec3 way = point_ - place.at;
     const double over = dot(way, place.normal), aside = length(way - over * place.normal);
-    const double side = std::max(0.0, aside - (no_gaps_ ? kAroundGaps : kAround) * field_->cell_mm),
+    const double side = std::max(0.0, aside - around_cells() * field_->cell_mm),
                  up = std::max(0.0, over - (no_gaps_ ? kBulgeAtGaps : kBulge) * field_->cell_mm);
     return side * side + up * up >= than_mm * than_mm;
 }
@@ -248,19 +250,20 @@ bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const
     return std::abs(way_mm) < kOwn * field_->cell_mm || ahead_mm * way_mm > 0;
 }
 
-// How far the side of a place is from the point, if it is there: over a place that is known, as it is alike
-// to one of another side, or leads there. Within a cell there may be two sides.
-double ShownSurface::side_mm(const SeenPlace& place, double least_mm, double most_mm) const {
+// How far the side of a place is from the point, if that is between the two bounds: of a place that is known,
+// as it is alike to one of another side, or leads there. Within a cell there may be two sides.
+std::optional<double> ShownSurface::side_mm(const SeenPlace& place, double least_mm, double most_mm) const {
     const double over_mm = std::max(dot(point_ - place.at, place.normal), least_mm);
-    const double behind_mm = over_mm + kMuchNearer * field_->cell_mm;
-    if (behind_mm >= most_mm || field_->distance_mm(point_ - behind_mm * place.normal) >= 0) return most_mm;
+    const double behind_mm = over_mm + kLeastNearer * field_->cell_mm;
+    if (behind_mm >= most_mm || field_->distance_mm(point_ - behind_mm * place.normal) >= 0)
+        return std::nullopt;
     return over_mm;
 }
 
 bool ShownSurface::take(double within_mm, const contact::Foot& nearest, std::span<const SeenPlace> but,
                         SeenPlace& place) {
     const double nearest_mm = nearest.sample.distance_mm,
-                 ball_mm = nearest_mm - 2 * kMuchNearer * field_->cell_mm;
+                 ball_mm = nearest_mm - 2 * kLeastNearer * field_->cell_mm;
     while (here_.size() > 0) {
         const ShownPlace one = here_.take(*std::ranges::min_element(here_, {}, &ShownPlace::way_mm));
         if (none_nearer(one.place, within_mm) || is_left_out(one.place)) continue;
@@ -270,9 +273,11 @@ bool ShownSurface::take(double within_mm, const contact::Foot& nearest, std::spa
             passed_.put(one);
         const auto leads_there = [&](const SeenPlace& other) { return leads_to(one.place, other); };
         const bool is_known = std::any_of(but.begin(), but.end(), leads_there) || comes_nearer(one);
-        if (is_known && side_mm(one.place, ball_mm, nearest_mm) == nearest_mm) {
-            if (dot(one.place.normal, nearest.sample.normal) < kGoesOn)
-                other_side_mm_ = std::min(other_side_mm_, side_mm(one.place, nearest_mm, within_mm));
+        if (is_known && !side_mm(one.place, ball_mm, nearest_mm)) {
+            if (dot(one.place.normal, nearest.sample.normal) < kGoesOn) {
+                if (const auto side = side_mm(one.place, nearest_mm, within_mm))
+                    other_side_mm_ = std::min(other_side_mm_, *side);
+            }
             continue;
         }
         place = one.place;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "base/fixed_list.hpp"
@@ -70,7 +71,8 @@ class ShownSurface {
     bool leads_to(const SeenPlace& place, const SeenPlace& seen) const;
     bool is_left_out(const SeenPlace& place) const { return no_gaps_ && !field_->wall_at(place.at); }
     bool comes_nearer(const ShownPlace& from) const;
-    double side_mm(const SeenPlace& place, double least_mm, double most_mm) const;
+    double around_cells() const;
+    std::optional<double> side_mm(const SeenPlace& place, double least_mm, double most_mm) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 
     const FieldQuery* field_;
