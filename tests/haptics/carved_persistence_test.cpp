@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/noise_hash.hpp"
+#include "base/spiral.hpp"
 #include "haptics/contact/field_contact.hpp"
 #include "haptics/contact/probe_shape.hpp"
 #include "milled_field.hpp"
@@ -52,11 +53,8 @@ double ball_depth(const Milled& m, Vec3 centre, double radius) {
     if (radius == 0) return deepest;
     constexpr int kPlaces = 60;
     for (int n = 0; n < kPlaces; ++n) {
-        // A spiral (Vogel 1979).
-        const double z = -1 + (n + 0.5) / kPlaces * (m.open ? 2 : 1), turn = 2.39996322972865332 * n;
-        const double flat = std::sqrt(1 - z * z);
         deepest = std::max(
-            deepest, m.depth_mm(centre + radius * Vec3{flat * std::cos(turn), flat * std::sin(turn), z}));
+            deepest, m.depth_mm(centre + radius * tribo::test::spiral_direction(n, kPlaces, m.open ? 1 : 0)));
     }
     return deepest;
 }

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/noise_hash.hpp"
+#include "base/spiral.hpp"
 #include "field/carved/carved_field.hpp"
 #include "field/shape/box_shape.hpp"
 #include "haptics/contact/field_contact.hpp"
@@ -72,9 +73,7 @@ Vec3 nearest_in_slot(const Slots& s, Vec3 probe, double radius) {
     for (double step = 0.5; step > 1e-6;) {
         Vec3 best = at;
         for (int n = 0; n < kWays; ++n) {
-            const double z = -1 + 2 * (n + 0.5) / kWays, turn = 2.39996322972865332 * n,
-                         flat = std::sqrt(1 - z * z);
-            const Vec3 next = at + step * Vec3{flat * std::cos(turn), flat * std::sin(turn), z};
+            const Vec3 next = at + step * tribo::test::spiral_direction(n, kWays);
             if (depth_beside(s, next, radius) <= 0 && distance(next, probe) < distance(best, probe))
                 best = next;
         }

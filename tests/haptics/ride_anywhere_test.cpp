@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "base/spiral.hpp"
 #include "haptics/contact/field_contact.hpp"
 #include "milling/any_passes.hpp"
 
@@ -76,10 +77,7 @@ class Rider {
         const double left = distance(from, at_);
         for (const double way : {0.003, 0.02}) {
             for (int n = 0; n < kWays; ++n) {
-                // A spiral (Vogel 1979).
-                const double z = -1 + 2 * (n + 0.5) / kWays, turn = 2.39996322972865332 * n,
-                             flat = std::sqrt(1 - z * z);
-                const Vec3 step = way * Vec3{flat * std::cos(turn), flat * std::sin(turn), z};
+                const Vec3 step = way * tribo::test::spiral_direction(n, kWays);
                 if (left - distance(from + step, at_) < kNearer * way || room(from + step) < kRoom) continue;
                 bool is_free = true;
                 for (int k = 1; k < kParts && is_free; ++k)

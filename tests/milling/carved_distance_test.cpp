@@ -4,7 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "any_passes.hpp"
+#include "milling/any_passes.hpp"
 
 namespace tribo::milling {
 namespace {

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-#include "any_passes.hpp"
+#include "base/spiral.hpp"
+#include "milling/any_passes.hpp"
 
 namespace tribo::milling {
 namespace {
@@ -20,9 +21,7 @@ double shortest_ray_mm(const field::CarvedField& field, Vec3 p, double most) {
     constexpr int kRays = 300;
     double shortest = kFar;
     for (int n = 0; n < kRays; ++n) {
-        const double z = -1 + 2 * (n + 0.5) / kRays, turn = 2.39996322972865332 * n,
-                     flat = std::sqrt(1 - z * z);
-        const Vec3 ray{flat * std::cos(turn), flat * std::sin(turn), z};
+        const Vec3 ray = tribo::test::spiral_direction(n, kRays);
         double way = std::max(0.0, field.distance_mm(p));
         while (way < std::min(shortest, most)) {
             const double air = field.distance_mm(p + way * ray);

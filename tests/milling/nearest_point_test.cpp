@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/noise_hash.hpp"
+#include "base/spiral.hpp"
 #include "field/carved/carved_field.hpp"
 #include "field/shape/box_shape.hpp"
 #include "haptics/milled_field.hpp"
@@ -247,10 +248,7 @@ struct Carved {
         constexpr int kWays = 150, kStarts = 4;
         std::vector<std::pair<double, Vec3>> rays;
         for (int n = 0; n < kWays; ++n) {
-            // A spiral (Vogel 1979).
-            const double z = -1 + 2 * (n + 0.5) / kWays, turn = 2.39996322972865332 * n,
-                         flat = std::sqrt(1 - z * z);
-            const Vec3 way{flat * std::cos(turn), flat * std::sin(turn), z};
+            const Vec3 way = tribo::test::spiral_direction(n, kWays);
             rays.emplace_back(ray_mm(p, way), way);
         }
         std::sort(rays.begin(), rays.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
