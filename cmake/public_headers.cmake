@@ -46,6 +46,7 @@ set(TRIBO_SENSE_HEADERS
     devices/force_plugin.h
     devices/serial_packets.h
     contact/half_spaces.hpp
+    contact/search_memory.hpp
     haptics/contact/probe_gap.hpp
     haptics/contact/side_step.hpp
     haptics/device/device.hpp

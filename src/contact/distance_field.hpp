@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -12,6 +11,8 @@
 #include "contact/half_spaces.hpp"
 
 namespace tribo::contact {
+
+class SearchMemory;  // search_memory.hpp
 
 // Distance and direction in one answer.
 struct SurfaceSample {
@@ -44,36 +45,6 @@ class Trail {
   private:
     std::array<Place, 32> place_;
     std::size_t count_ = 0;
-};
-
-// Searches along the surface for points nearby, by where they began: from there a search for a point a little
-// away ends at the same place. About 500 kB large.
-class SearchMemory {
-  public:
-    struct Search {
-        Vec3 start_mm, point_mm;
-        // Over this way of the point, mm, the surface comes nearer to it from the start to the first edge.
-        double lasts_mm = 0;
-        Trail trail;  // `along`: towards the end
-        Vec3 end_mm;
-        HalfSpaces sides;          // that met at the end; none: nothing is remembered
-        std::uint64_t change = 0;  // number of the state of the field
-    };
-    // Where the search from a start is remembered. Another one may be there.
-    Search& from(Vec3 start_mm) {
-        // Any spread of nearby starts does: those of one grid differ by parts of a cell.
-        const double mixed = 7919 * start_mm.x + 104729 * start_mm.y + 1299709 * start_mm.z;
-        constexpr int kUpperBits = 64 - kBits;
-        return search_[std::bit_cast<std::uint64_t>(mixed) * 0x9e3779b97f4a7c15U >> kUpperBits];
-    }
-    // For another field.
-    void forget() {
-        for (Search& one : search_) one.sides.count = 0;
-    }
-
-  private:
-    static constexpr int kBits = 8;
-    std::array<Search, 1 << kBits> search_;
 };
 
 // A place of the surface that is nearest to a point in its own neighbourhood, as a query found it.
@@ -146,10 +117,11 @@ inline constexpr double kThinnestWall = 1e-3;
 // True if there is material behind a place of the surface, or a little aside behind it, as on an edge. False
 // on a wall that is none. One query, up to 19 on an edge.
 bool has_material_behind(const DistanceField& field, Vec3 at_mm, Vec3 normal);
-// Of the distance kThinnestWall behind a place of the surface: whether that is in material, and not in the
-// rounding of it.
+// Deeper in material than this is no rounding, mm.
+inline constexpr double kInward = 0.02 * kThinnestWall;
+// Of the distance kThinnestWall behind a place of the surface: whether that is in material.
 inline bool falls_inward(double distance_mm) {
-    return distance_mm < -0.02 * kThinnestWall;
+    return distance_mm < -kInward;
 }
 
 // A surface point that is nearest to a point in its neighbourhood.

@@ -8,6 +8,7 @@
 
 #include "base/noise_hash.hpp"
 #include "base/spiral.hpp"
+#include "contact/search_memory.hpp"
 #include "field/carved/carved_field.hpp"
 #include "field/shape/box_shape.hpp"
 #include "haptics/milled_field.hpp"

@@ -2,6 +2,7 @@
 // The nearest surface to a point in air: followed from the last one, or searched anew.
 #include <algorithm>
 
+#include "contact/search_memory.hpp"
 #include "field/carved/near_margin.hpp"
 #include "field/carved/nearest_search.hpp"
 
@@ -121,8 +122,15 @@ bool FieldQuery::is_air_behind(Vec3 at) const {
     return !contact::falls_inward(distance_mm(at - (one.distance_mm + contact::kThinnestWall) * one.normal));
 }
 
+std::optional<Vec3> FieldQuery::wall_at(Vec3 shown, contact::SearchMemory* memory) const {
+    if (!memory) return find_wall(shown);
+    contact::SearchMemory::Wall& known = memory->wall_at(shown);
+    if (known.change != change || known.start_mm != shown) known = {shown, change, find_wall(shown)};
+    return known.wall_mm;
+}
+
 // Where the sides come nearer to each other there may be a wall: it looks there.
-std::optional<Vec3> FieldQuery::wall_at(Vec3 shown) const {
+std::optional<Vec3> FieldQuery::find_wall(Vec3 shown) const {
     constexpr int kMostMoves = 16;
     constexpr double kAroundCells = 1.5, kOpposite = 0.5, kThinnest = contact::kThinnestWall;
     const double around_mm = kAroundCells * cell_mm;

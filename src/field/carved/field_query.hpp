@@ -107,8 +107,9 @@ struct FieldQuery {
     contact::SurfaceSample nearest(Vec3 point_mm, double within_mm,
                                    contact::NearHint& hint) const;  // field_nearest.cpp
     // Near a place that the grid shows (ShownSurface), a place with material behind the surface. None: that
-    // is in a gap, between two sides with air all the way from one to the other.
-    std::optional<Vec3> wall_at(Vec3 shown_mm) const;  // field_nearest.cpp
+    // is in a gap, between two sides with air all the way from one to the other. It takes some microseconds:
+    // kept in `memory`, which may be null.
+    std::optional<Vec3> wall_at(Vec3 shown_mm, contact::SearchMemory* memory) const;  // field_nearest.cpp
     // Returns true if distance_mm < -skin_mm (0 <= skin_mm << cell). Measures no exact distance where the
     // grid gives the answer.
     bool is_material(Vec3 point_mm, double skin_mm) const;
@@ -140,6 +141,7 @@ struct FieldQuery {
     contact::Foot below(contact::SurfaceSample depth, Vec3 point_mm) const;
     bool is_skin(const contact::Foot& foot) const;
     bool is_air_behind(Vec3 at_mm) const;
+    std::optional<Vec3> find_wall(Vec3 shown_mm) const;
     bool is_listed(ShapeId id, Vec3 point_mm) const;
     Vec3 surface_behind(Vec3 shown_mm, Vec3 point_mm) const;
 };

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/fixed_list.hpp"
+#include "contact/search_memory.hpp"
 #include "field/carved/near_bricks.hpp"
 #include "field/carved/near_margin.hpp"
 
@@ -200,7 +201,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_from(SeenPlace& s
     std::optional<contact::Foot> foot = search(ref, from);
     if (!foot && lost_mm_) {
         const Vec3 lost = *lost_mm_;
-        const std::optional<Vec3> wall = field_.wall_at(start.at);
+        const std::optional<Vec3> wall = field_.wall_at(start.at, hint_.memory);
         if (wall) foot = search_between(*wall, lost, ref);
         if (wall && !foot) foot = around(*wall, ref);
         near_gaps_ = near_gaps_ || !wall;
@@ -259,7 +260,8 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::search_between(Vec3 wall
 std::optional<contact::Foot> FieldQuery::NearestSearch::around(Vec3 wall, BrickRef ref) {
     constexpr double kShortest = 1e-4;  // mm
     constexpr int kMostTries = 400;
-    if (!contact::falls_inward(field_.distance_mm(wall))) return std::nullopt;
+    const auto is_wall = [&](Vec3 at) { return field_.is_material(at, contact::kInward); };
+    if (!is_wall(wall)) return std::nullopt;
     double step_mm = field_.cell_mm;
     for (int tries = 0; step_mm >= kShortest && tries < kMostTries;) {
         const Vec3 ahead = normalized(p_ - wall), u = any_perpendicular(ahead), v = cross(ahead, u);
@@ -270,7 +272,7 @@ std::optional<contact::Foot> FieldQuery::NearestSearch::around(Vec3 wall, BrickR
             const Vec3 next = wall + step_mm * (i * ahead + j * u + k * v);
             if (distance(p_, next) >= distance(p_, wall)) continue;
             ++tries;
-            if (!contact::falls_inward(field_.distance_mm(next))) continue;
+            if (!is_wall(next)) continue;
             wall = next;
             has_moved = true;
         }
@@ -375,7 +377,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
     // Start and end points of the searches, and places of the edges that they passed.
     constexpr std::size_t kMostPassed = 200;
     FixedList<SeenPlace, kMostPassed + 2 * kMostSearches + 2 + contact::NearHint::kMostOthers> seen;
-    ShownSurface shown(field_, p_);
+    ShownSurface shown(field_, p_, hint_.memory);
     const bool knew_gaps = near_gaps_;
     if (knew_gaps) shown.leave_out_gaps();
     const auto place_of = [](const contact::Foot& foot) -> SeenPlace {
@@ -402,7 +404,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             // Over the edge of a rib, or out of a gap, it goes on to a place beyond: another start leads to
             // what is nearest here.
             const double on_mm = foot ? foot->sample.distance_mm - distance(p_, start.at) : 0;
-            near_gaps_ = near_gaps_ || (on_mm > 0 && !field_.wall_at(start.at));
+            near_gaps_ = near_gaps_ || (on_mm > 0 && !field_.wall_at(start.at, hint_.memory));
             if (is_proven_ || near_gaps_ != knew_gaps) return found_.best();
             if (!foot && distance(p_, start.at) >= reach() + field_.cell_mm) continue;
             if (!foot) {
@@ -411,7 +413,7 @@ contact::Foot FieldQuery::NearestSearch::among_bricks(contact::SurfaceSample low
             }
             if (on_mm > 0 && distance(foot->at_mm, start.at) > field_.cell_mm) {
                 // It has passed what it began at.
-                if (const auto wall = field_.wall_at(start.at)) (void)around(*wall, ref);
+                if (const auto wall = field_.wall_at(start.at, hint_.memory)) (void)around(*wall, ref);
             }
             if (on_mm > field_.cell_mm) continue;
             const SeenPlace end = place_of(*foot);

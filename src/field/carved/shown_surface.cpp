@@ -255,7 +255,7 @@ bool ShownSurface::leads_to(const SeenPlace& place, const SeenPlace& seen) const
 std::optional<double> ShownSurface::side_mm(const SeenPlace& place, double least_mm, double most_mm) const {
     const double over_mm = std::max(dot(point_ - place.at, place.normal), least_mm);
     const double behind_mm = over_mm + kLeastNearer * field_->cell_mm;
-    if (behind_mm >= most_mm || field_->distance_mm(point_ - behind_mm * place.normal) >= 0)
+    if (behind_mm >= most_mm || !field_->is_material(point_ - behind_mm * place.normal, 0))
         return std::nullopt;
     return over_mm;
 }

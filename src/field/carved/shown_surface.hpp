@@ -38,7 +38,9 @@ struct ShownPlace {
 // Looks at one brick after another. Allocates nothing: it is about 90 kB large.
 class ShownSurface {
   public:
-    ShownSurface(const FieldQuery& field, Vec3 point_mm) : field_(&field), point_(point_mm) {}
+    // `memory` of other searches in the same field, or null.
+    ShownSurface(const FieldQuery& field, Vec3 point_mm, contact::SearchMemory* memory)
+        : field_(&field), memory_(memory), point_(point_mm) {}
 
     // Sees all places of a brick near which the surface may be less than `within_mm` away from the point, and
     // forgets those of the brick before that were not taken.
@@ -69,13 +71,14 @@ class ShownSurface {
     template <class IsEnough>
     bool visit_nearer(const ShownPlace& from, IsEnough&& is_enough) const;
     bool leads_to(const SeenPlace& place, const SeenPlace& seen) const;
-    bool is_left_out(const SeenPlace& place) const { return no_gaps_ && !field_->wall_at(place.at); }
+    bool is_left_out(const SeenPlace& place) const { return no_gaps_ && !field_->wall_at(place.at, memory_); }
     bool comes_nearer(const ShownPlace& from) const;
     double around_cells() const;
     std::optional<double> side_mm(const SeenPlace& place, double least_mm, double most_mm) const;
     double steepest_fall_mm(const ShownPlace& from) const;
 
     const FieldQuery* field_;
+    contact::SearchMemory* memory_;
     Vec3 point_;
     FixedList<ShownPlace, 192> here_;    // of the last brick, not taken yet
     FixedList<ShownPlace, 384> passed_;  // taken or passed over

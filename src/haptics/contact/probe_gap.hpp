@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/distance_field.hpp"
+#include "contact/search_memory.hpp"
 
 namespace tribo::haptics {
 
