@@ -22,10 +22,6 @@ constexpr double kGain = 0.1, kBeyond = 1.25;
 // A refused step is followed by one of this share or of kShorter, a taken one allows one longer by the
 // inverse of that.
 constexpr double kLittleShorter = 0.75;
-// The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
-constexpr double kTouches = 0.01;
-// It is so many steps high at least: the next ones end at the same ball.
-constexpr double kStepsHigh = 2;
 // Normals less apart than this are of the same place of a side (product).
 constexpr double kSameSide = 0.9999;
 // So far a corner is looked into behind its sides, mm, where the way between the others goes behind it by at
@@ -47,6 +43,16 @@ constexpr double kCreeping = 0.1, kStuckS = 3e-3;
 
 contact::HalfSpace side_of(Vec3 normal) {
     return {-normal, 0, 0};
+}
+
+// Which sides of a corner to look behind together, one bit each: each alone, and of three or four all but
+// one, and all pairs.
+std::span<const std::uint8_t> looks_in_corner_of(int sides) {
+    static constexpr std::uint8_t kTwo[] = {1, 2}, kThree[] = {1, 2, 4, 6, 5, 3},
+                                  kFour[] = {1, 2, 4, 8, 14, 13, 11, 7, 3, 5, 6, 9, 10, 12};
+    if (sides == 2) return kTwo;
+    if (sides == 3) return kThree;
+    return sides == 4 ? std::span<const std::uint8_t>(kFour) : std::span<const std::uint8_t>();
 }
 
 Vec3 limited(Vec3 v, double most) {
@@ -232,7 +238,9 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
         }
     }
     const double alike = dot(g.normal, from.normal);
-    const bool other_side = alike < kOtherSide && size > gap_.radius_mm() && g.gap_mm <= kSkin;
+    // The proxy would be behind it: not so in a groove as sharp.
+    const bool other_side = alike < kOtherSide && size > gap_.radius_mm() && g.gap_mm <= kSkin &&
+                            g.gap_mm - dot(g.normal, step) < -kSkin;
     if (alone && (other_side || (alike > kOneSide && g.gap_mm < -kOff * size))) return Landing::none;
     to = from;
     if (g.gap_mm > kOff * size + kSkin) {
@@ -314,7 +322,7 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     const ProbeGap::Gap g = measure(at_.proxy);
     at_.ball = g.ball;
     settled_ = std::abs(g.gap_mm) <= 2 * kSkin;
-    if (settled_) return look_behind_a_side();
+    if (settled_) return look_behind_sides(way);
     if (g.gap_mm > 0 && !moved_) {
         // From here on, or the flight would end here again.
         (void)chain({at_.proxy, g.gap_mm});
@@ -325,7 +333,7 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     if (corrected.proxy == at_.proxy) {
         // As near to all its sides as they let it come. If it touches none, it takes off in the next tick.
         settled_ = g.gap_mm <= skin();
-        return settled_ ? look_behind_a_side() : Next::nothing;
+        return settled_ ? look_behind_sides(way) : Next::nothing;
     }
     moved_ = true;
     if (!tie(corrected)) return Next::nothing;
@@ -333,21 +341,30 @@ FieldContact::Next FieldContact::come_to_rest(const Split& way) {
     return Next::more;
 }
 
-// In a corner, one side after the other, a tick each, also while it moves: where a little way along the
-// others there is no material behind it, it was that of a step too low to hold, or was left.
-FieldContact::Next FieldContact::look_behind_a_side() {
+// In a corner, some sides after the others, a tick each, also while it moves: where a little way along the
+// others there is no material behind them, they were those of a step too low to hold, or were left, or are
+// those of a saddle.
+FieldContact::Next FieldContact::look_behind_sides(const Split& way) {
     contact::HalfSpaces& sides = at_.sides;
-    if (moved_) looked_sides_ = 0;
-    if (sides.count < 2 || looked_sides_ >= sides.count) return Next::nothing;
-    const int side = next_side_++ % sides.count;
+    if (moved_) looks_ = 0;
+    const std::span looks = looks_in_corner_of(sides.count);
+    if (looks_ >= static_cast<int>(looks.size())) return Next::nothing;
+    const unsigned left_out = looks[static_cast<std::size_t>(next_look_++) % looks.size()];
+    ++looks_;
     contact::HalfSpaces others;
+    std::array<Vec3, contact::HalfSpaces::kMost> out;
+    int count = 0;
     for (int n = 0; n < sides.count; ++n) {
-        if (n != side) others.put(sides.side[static_cast<std::size_t>(n)], kOneSide);
+        const contact::HalfSpace& h = sides.side[static_cast<std::size_t>(n)];
+        if ((left_out >> n & 1) != 0)
+            out[static_cast<std::size_t>(count++)] = h.normal;
+        else
+            others.put(h, kOneSide);
     }
-    const Vec3 along = others.nearest(sides.side[static_cast<std::size_t>(side)].normal);
-    ++looked_sides_;
-    // So deep behind it that is.
-    const double behind = dot(along, sides.side[static_cast<std::size_t>(side)].normal);
+    const Vec3 along = count == 1 ? others.nearest(out[0]) : normalized(others.nearest(way.press), Vec3{});
+    // So deep behind them that is.
+    double behind = 0;
+    for (int n = 0; n < count; ++n) behind = std::max(behind, dot(along, out[static_cast<std::size_t>(n)]));
     if (behind < kLeastBehind || measure(at_.proxy + kLook * along).gap_mm < -kOff * kLook * behind)
         return Next::nothing;
     sides = others;
@@ -440,87 +457,6 @@ bool FieldContact::push_out() {
     }
     phase_ = Phase::climb;
     return true;
-}
-
-// Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.
-bool FieldContact::chain(const Anchor& to) {
-    if (to.radius < kSkin) return false;
-    Anchor a = anchor_;
-    for (int links = 0;; ++links) {
-        const double way = distance(to.at, a.at), reach = a.radius + bridge_mm();
-        if (way <= reach + to.radius) {
-            anchor_ = to;
-            return true;
-        }
-        chained_mm_ = distance(a.at, anchor_.at);
-        if (a.radius < -skin() || reach < kSkin || links == kMostLinks || !budget(1)) return false;
-        a.at += (reach / way) * (to.at - a.at);
-        a.radius = clearance_mm(a.at, distance(to.at, a.at));
-    }
-}
-
-// An anchor that a turn of the probe has taken the room from is looked at again, and given up for the ball
-// over the proxy where nothing is left of it: a probe that turns has no other way to it.
-void FieldContact::renew_anchor() {
-    if (anchor_.radius > kSkin) return;
-    anchor_.radius = clearance_mm(anchor_.at, kHighest);
-    const Vec3 up = up_from(at_);
-    for (double height = height_; anchor_.radius <= kSkin && height > kSkin && budget(1); height *= 0.25) {
-        const Vec3 at = at_.proxy + height * up;
-        const Anchor a{at, clearance_mm(at, height, true)};
-        if (a.radius > (1 - kTouches) * height) anchor_ = a;
-    }
-}
-
-Vec3 FieldContact::up_from(const Place& place) {
-    Vec3 up;
-    for (int n = 0; n < place.sides.count; ++n) up -= place.sides.side[static_cast<std::size_t>(n)].normal;
-    return normalized(up, place.normal);
-}
-
-// Whether a ball, and ever smaller ones towards the proxy, reach it: between walls the first does not.
-bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
-    for (;;) {
-        const double left = distance(ball.at, proxy);
-        if (left <= ball.radius + tolerance_mm) return true;
-        if (ball.radius <= 0.1 * left || !budget(1)) return false;
-        ball.at += (ball.radius / left) * (proxy - ball.at);
-        ball.radius = clearance_mm(ball.at, distance(ball.at, proxy));
-    }
-}
-
-// Finds an anchor that touches the proxy and that the present anchor leads to, where that does not still
-// touch.
-bool FieldContact::tie(const Place& to) {
-    if (distance(to.proxy, anchor_.at) <= anchor_.radius + std::max(kTouches * anchor_.radius, skin()))
-        return true;
-    const double step = distance(to.proxy, at_.proxy);
-    if (gap_.radius_mm() > 0 && step <= bridge_mm()) {
-        // A short step of a ball needs no free ball above it.
-        const double gap_mm = measure(to.proxy).gap_mm;
-        if (gap_mm < -std::max(kTouches * step, kLens)) return false;
-        anchor_ = {to.proxy, std::max(0.0, gap_mm)};
-        return true;
-    }
-    Vec3 up = up_from(to);
-    double height = std::clamp(std::max(kStepsHigh * step, height_), kLowest, kHighest);
-    for (int tries = 0; tries < 3 && budget(2); ++tries) {
-        const Vec3 at = to.proxy + height * up;
-        const Anchor a{at, clearance_mm(at, height, true)};
-        if (reaches_down(a, to.proxy, std::max(kTouches * height, skin()))) {
-            height_ = height;
-            return chain(a);
-        }
-        // Another side is near, one that the step has left or comes to: there is room only away from it too.
-        const Vec3 tilted = tries == 0 ? normalized(up + measure(at).normal, up) : up;
-        if (dot(tilted, up) < kOneSide) {
-            up = tilted;
-        } else {
-            height = std::max(kLowest, 0.25 * height);
-        }
-    }
-    height_ = height;
-    return false;
 }
 
 ProbeContact FieldContact::answer(Vec3 probe) {

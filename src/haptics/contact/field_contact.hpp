@@ -138,7 +138,7 @@ class FieldContact {
     Split split(const Place& place, Vec3 probe) const;
     Next take_off();
     Next come_to_rest(const Split& way);
-    Next look_behind_a_side();
+    Next look_behind_sides(const Split& way);
     Next take_step(Vec3 probe, const Split& way);
     Vec3 step_for(const Split& way);
     enum class Landing { on_surface, over_edge, none };
@@ -184,9 +184,9 @@ class FieldContact {
     bool braced_ = false;  // settled between nearly parallel sides, which also hold the remaining way
     bool sticking_ = true;
     bool moved_ = false, looked_ = false;  // in this tick: a step was taken; the place was examined
-    // Of the corner in which the proxy has settled: how many sides were looked behind there, and which is
-    // next.
-    int looked_sides_ = 0, next_side_ = 0;
+    // Of the corner in which the proxy has settled: how many looks behind its sides were done there, and
+    // which is next.
+    int looks_ = 0, next_look_ = 0;
     Anchor anchor_;
     double chained_mm_ = 0;  // length of the last chain
     Place at_;               // the contact, tied

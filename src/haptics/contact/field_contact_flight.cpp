@@ -134,7 +134,7 @@ void FieldContact::touch_down(Vec3 probe, Anchor from, ProbeGap::Gap g) {
     height_ = std::clamp(distance(probe, at_.proxy), kLowest, kHighest);
     stride_mm_ = 1e30;
     moved_ = false;
-    looked_sides_ = next_side_ = 0;
+    looks_ = next_look_ = 0;
     (void)tie(at_);
 }
 

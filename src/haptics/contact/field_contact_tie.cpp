@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// How the proxy is tied: balls of free space, from place to place.
+#include <algorithm>
+
+#include "haptics/contact/field_contact.hpp"
+
+namespace tribo::haptics {
+namespace {
+
+// The anchor's ball may miss the proxy by this share of its height, as rounding of curved sweeps does.
+constexpr double kTouches = 0.01;
+// It is so many steps high at least: the next ones end at the same ball.
+constexpr double kStepsHigh = 2;
+
+}  // namespace
+
+// Whether a chain of free balls leads from the anchor to `to`, which then is the anchor.
+bool FieldContact::chain(const Anchor& to) {
+    if (to.radius < kSkin) return false;
+    Anchor a = anchor_;
+    for (int links = 0;; ++links) {
+        const double way = distance(to.at, a.at), reach = a.radius + bridge_mm();
+        if (way <= reach + to.radius) {
+            anchor_ = to;
+            return true;
+        }
+        chained_mm_ = distance(a.at, anchor_.at);
+        if (a.radius < -skin() || reach < kSkin) return false;
+        if (links == kMostLinks || !budget(1)) {
+            // From an anchor that was left far away it goes on from here next time.
+            if (a.radius > kSkin && distance(a.at, at_.proxy) < distance(anchor_.at, at_.proxy)) anchor_ = a;
+            return false;
+        }
+        a.at += (reach / way) * (to.at - a.at);
+        a.radius = clearance_mm(a.at, distance(to.at, a.at));
+    }
+}
+
+// An anchor that a turn of the probe has taken the room from is looked at again, and given up for the ball
+// over the proxy where nothing is left of it: a probe that turns has no other way to it.
+void FieldContact::renew_anchor() {
+    if (anchor_.radius > kSkin) return;
+    anchor_.radius = clearance_mm(anchor_.at, kHighest);
+    const Vec3 up = up_from(at_);
+    for (double height = height_; anchor_.radius <= kSkin && height > kSkin && budget(1); height *= 0.25) {
+        const Vec3 at = at_.proxy + height * up;
+        const Anchor a{at, clearance_mm(at, height, true)};
+        if (a.radius > (1 - kTouches) * height) anchor_ = a;
+    }
+}
+
+Vec3 FieldContact::up_from(const Place& place) {
+    Vec3 up;
+    for (int n = 0; n < place.sides.count; ++n) up -= place.sides.side[static_cast<std::size_t>(n)].normal;
+    return normalized(up, place.normal);
+}
+
+// Whether a ball, and ever smaller ones towards the proxy, reach it: between walls the first does not.
+bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
+    for (;;) {
+        const double left = distance(ball.at, proxy);
+        if (left <= ball.radius + tolerance_mm) return true;
+        if (ball.radius <= 0.1 * left || !budget(1)) return false;
+        ball.at += (ball.radius / left) * (proxy - ball.at);
+        ball.radius = clearance_mm(ball.at, distance(ball.at, proxy));
+    }
+}
+
+// Finds an anchor that touches the proxy and that the present anchor leads to, where that does not still
+// touch.
+bool FieldContact::tie(const Place& to) {
+    if (distance(to.proxy, anchor_.at) <= anchor_.radius + std::max(kTouches * anchor_.radius, skin()))
+        return true;
+    const double step = distance(to.proxy, at_.proxy);
+    if (gap_.radius_mm() > 0 && step <= bridge_mm()) {
+        // A short step of a ball needs no free ball above it.
+        const double gap_mm = measure(to.proxy).gap_mm;
+        if (gap_mm < -std::max(kTouches * step, kLens)) return false;
+        anchor_ = {to.proxy, std::max(0.0, gap_mm)};
+        return true;
+    }
+    Vec3 up = up_from(to);
+    double height = std::clamp(std::max(kStepsHigh * step, height_), kLowest, kHighest);
+    const Vec3 first = up;
+    for (int tries = 0; tries < 4 && budget(2); ++tries) {
+        const Vec3 at = to.proxy + height * up;
+        const Anchor a{at, clearance_mm(at, height, true)};
+        if (reaches_down(a, to.proxy, std::max(kTouches * height, skin()))) {
+            const bool leads = chain(a);
+            height_ = leads ? height : std::max(kLowest, 0.25 * height);
+            return leads;
+        }
+        // Another side is near, one that the step has left or comes to: there is room only away from it too,
+        // in a sharp groove between the two ways.
+        Vec3 tilted = up;
+        if (tries == 0) tilted = normalized(up + measure(at).normal, up);
+        if (tries == 1 && a.radius < 0) tilted = normalized(first + up, up);
+        if (dot(tilted, up) < kOneSide) {
+            up = tilted;
+        } else {
+            height = std::max(kLowest, 0.25 * height);
+        }
+    }
+    height_ = height;
+    return false;
+}
+
+}  // namespace tribo::haptics
