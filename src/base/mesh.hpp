@@ -12,6 +12,12 @@
 namespace tribo {
 
 using Point3f = std::array<float, 3>;
+inline Point3f to_float(Vec3 p) {
+    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+}
+inline Vec3 to_double(const Point3f& p) {
+    return {p[0], p[1], p[2]};
+}
 using Triangle = std::array<std::uint32_t, 3>;  // counter-clockwise seen from outside
 
 struct TriangleMesh {
@@ -19,7 +25,7 @@ struct TriangleMesh {
     std::vector<Triangle> triangles;  // every index < positions.size()
     std::vector<Point3f> normals;     // unit, one per position; or empty
 
-    Vec3 position(std::uint32_t i) const { return {positions[i][0], positions[i][1], positions[i][2]}; }
+    Vec3 position(std::uint32_t i) const { return to_double(positions[i]); }
 };
 
 Box3 bounds(const TriangleMesh& mesh);

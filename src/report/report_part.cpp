@@ -119,8 +119,7 @@ TriangleMesh with_fewer_vertices(const TriangleMesh& mesh, std::size_t most,
                 break;
             }
         }
-        fewer.positions[n] = {static_cast<float>(place.x), static_cast<float>(place.y),
-                              static_cast<float>(place.z)};
+        fewer.positions[n] = to_float(place);
     }
     kinds = std::move(kind);
     return fewer;

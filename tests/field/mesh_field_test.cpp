@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/noise_hash.hpp"
+#include "field/any_mesh.hpp"
 #include "field/mesh/mesh_tree.hpp"
 
 namespace tribo::field {
@@ -55,6 +56,82 @@ TEST(MeshField, makes_a_plate_of_a_sheet) {
             }
         }
     }
+}
+
+// A sheet around a part of a cylinder along y, of radius 10, 8 mm wide: against the distance to a part of a
+// tube in closed form, near its straight and its round borders.
+TEST(MeshField, makes_a_part_of_a_tube_of_a_bent_sheet) {
+    constexpr double kRadius = 10, kWide = 8, kThick = 2;
+    for (const double turn : {0.8, 2.5}) {
+        for (const bool front_inside : {false, true}) {
+            TriangleMesh mesh;
+            constexpr std::uint32_t kCells = 400;
+            for (std::uint32_t n = 0; n <= kCells; ++n) {
+                const double u = turn * n / kCells;
+                for (const double y : {0.0, kWide})
+                    mesh.positions.push_back(to_float({kRadius * std::cos(u), y, kRadius * std::sin(u)}));
+            }
+            for (std::uint32_t n = 0; n < kCells; ++n) {
+                const std::uint32_t a = 2 * n, b = a + 1, c = a + 2, d = a + 3;
+                mesh.triangles.push_back({a, b, d});
+                mesh.triangles.push_back({a, d, c});
+                if (!front_inside) continue;
+                for (Triangle* t : {&mesh.triangles.end()[-2], &mesh.triangles.end()[-1]})
+                    std::swap((*t)[1], (*t)[2]);
+            }
+            const auto field = MeshField::make(mesh, kThick);
+            ASSERT_TRUE(field);
+            ASSERT_TRUE((*field)->is_sheet());
+            const double least = front_inside ? kRadius : kRadius - kThick, most = least + kThick;
+            const CounterNoise noise(11);
+            for (std::uint64_t n = 0; n < 20'000; ++n) {
+                const auto between = [&](std::uint64_t k, double low, double high) {
+                    return low + (high - low) * noise.uniform(3 * n + k);
+                };
+                const Vec3 p{between(0, -14, 15), between(1, -4, kWide + 4), between(2, -5, 15)};
+                const double r = std::hypot(p.x, p.z), u = std::atan2(p.z, p.x);
+                double across = std::max({least - r, r - most, 0.0});
+                if (u < 0 || u > turn) {
+                    across = 1e9;
+                    for (const double end : {0.0, turn}) {
+                        const double along = p.x * std::cos(end) + p.z * std::sin(end),
+                                     aside = p.z * std::cos(end) - p.x * std::sin(end);
+                        across = std::min(across, std::hypot(aside, std::clamp(along, least, most) - along));
+                    }
+                }
+                const double right = std::hypot(across, std::max({-p.y, p.y - kWide, 0.0}));
+                const double got = (*field)->distance_mm(p);
+                // At the ends the part of the mesh leans by half of its turn.
+                constexpr double kSagitta = 1e-3;
+                if (right > 2 * kSagitta)
+                    EXPECT_NEAR(got, right, 0.5 * turn / kCells * kThick + kSagitta)
+                        << turn << front_inside << " " << p.x << " " << p.y << " " << p.z;
+                else
+                    EXPECT_LE(got, 0.01);
+            }
+        }
+    }
+}
+
+// The distance grows by no more than the way, over the borders of bent sheets too.
+TEST(MeshField, has_no_steps_around_sheets) {
+    constexpr double kStep = 1e-3;
+    long steps = 0, pairs = 0;
+    for (std::uint64_t n = 0; n < 40; ++n) {
+        test::Draw draw(9, n);
+        const TriangleMesh mesh = test::any_sheet(draw);
+        const auto field = MeshField::make(mesh, draw.between(0.2, 2));
+        ASSERT_TRUE(field);
+        for (int k = 0; k < 5000; ++k) {
+            const Vec3 from{draw.between(-11, 11), draw.between(-11, 11), draw.between(-5, 5)},
+                to = from + kStep * Vec3{draw.between(-1, 1), draw.between(-1, 1), draw.between(-1, 1)};
+            const double grown = (*field)->distance_mm(to) - (*field)->distance_mm(from);
+            ++pairs;
+            if (std::abs(grown) > distance(from, to) + 1e-4) ++steps;
+        }
+    }
+    // In the hollow of a sheet, far behind it, a border may hide what is as near.
+    EXPECT_LE(steps, pairs / 20'000);
 }
 
 TEST(MeshField, takes_a_closed_mesh_as_a_solid_whichever_way_it_is_turned) {

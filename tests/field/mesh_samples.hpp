@@ -10,14 +10,10 @@
 
 namespace tribo::field::test {
 
-inline Point3f to_point(Vec3 p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-
 inline TriangleMesh box_mesh(const Box3& box) {
     TriangleMesh mesh;
     for (int i = 0; i < 8; ++i) {
-        mesh.positions.push_back(to_point(
+        mesh.positions.push_back(to_float(
             {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z}));
     }
     const std::uint32_t quads[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
@@ -50,7 +46,7 @@ inline TriangleMesh sphere_mesh(Vec3 centre, double radius, int levels) {
         faces = std::move(finer);
     }
     TriangleMesh mesh;
-    for (const Vec3 c : corners) mesh.positions.push_back(to_point(centre + radius * c));
+    for (const Vec3 c : corners) mesh.positions.push_back(to_float(centre + radius * c));
     mesh.triangles = std::move(faces);
     return mesh;
 }

@@ -60,8 +60,7 @@ TriangleMesh crown(const std::vector<int>& heights) {
     mesh.positions = {{0, 0, 0}, {0, 0, -3}};
     for (std::uint32_t i = 0; i < n; ++i) {
         const double angle = 6.283185307179586 * i / n;
-        mesh.positions.push_back(
-            test::to_point({4 * std::cos(angle), 4 * std::sin(angle), 0.5 * heights[i]}));
+        mesh.positions.push_back(to_float({4 * std::cos(angle), 4 * std::sin(angle), 0.5 * heights[i]}));
         mesh.triangles.push_back({0, 2 + i, 2 + (i + 1) % n});
         mesh.triangles.push_back({1, 2 + (i + 1) % n, 2 + i});
     }

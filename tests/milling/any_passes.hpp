@@ -7,28 +7,14 @@
 #include <memory>
 #include <vector>
 
-#include "base/noise_hash.hpp"
+#include "base/draw.hpp"
 #include "field/carved/carved_field.hpp"
 #include "field/shape/box_shape.hpp"
 #include "milling/sweep/sweep.hpp"
 
 namespace tribo::milling::test {
 
-class Draw {
-  public:
-    Draw(std::uint64_t seed, std::uint64_t scene) : noise_(seed), next_(scene << 32U) {}
-    double between(double low, double high) { return low + (high - low) * noise_.uniform(next_++); }
-    bool by_chance(double share) { return between(0, 1) < share; }
-    template <class T, std::size_t kCount>
-    T one_of(const T (&all)[kCount]) {
-        return all[static_cast<std::size_t>(between(0, kCount))];
-    }
-    Vec3 aside(double most) { return {between(-most, most), between(-most, most), 0}; }
-
-  private:
-    CounterNoise noise_;
-    std::uint64_t next_;
-};
+using tribo::test::Draw;
 
 struct AnyPasses {
     static constexpr double kTop = 0;  // of the stock, z, mm

@@ -73,9 +73,7 @@ class PathWatcher final : public readers::MoveSink {
 // Points without triangles: the picture leaves room for the lines through them.
 void make_room(TriangleMesh& mesh, const std::vector<report::PictureLine>& lines) {
     for (const report::PictureLine& line : lines)
-        for (const Vec3 p : line.points_mm)
-            mesh.positions.push_back(
-                {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+        for (const Vec3 p : line.points_mm) mesh.positions.push_back(to_float(p));
 }
 
 Found found_program(const motion::Program& program, PathWatcher& path, job::PathKind kind,

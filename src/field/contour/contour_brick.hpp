@@ -68,13 +68,6 @@ struct BrickSurface {
     Vec3 on_face(const Lattice& lattice, int node, int axis, FaceSegment::End end) const;
 };
 
-inline Point3f to_float(Vec3 p) {
-    return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-}
-inline Vec3 to_double(const Point3f& p) {
-    return {p[0], p[1], p[2]};
-}
-
 // Returns the position of the crossing, a little away from the ends of its edge, mm.
 Vec3 edge_point(const Lattice& lattice, const EdgePoint& e);
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <tuple>
 #include <utility>
 
 namespace tribo::field {
@@ -38,25 +40,71 @@ Result<std::unique_ptr<MeshField>> MeshField::make(TriangleMesh mesh, double thi
 MeshField::MeshField(TriangleMesh mesh, double thickness_mm, double skin_mm)
     : distance_(std::move(mesh)), thickness_(thickness_mm), skin_(skin_mm) {
     if (!is_sheet()) return;
-    border_ = border_of(distance_.mesh(), distance_.normals());
-    border_tree_.emplace(border_.edges);
+    Wall wall = wall_of(distance_.mesh(), distance_.normals(), thickness_);
+    off_ = std::move(wall.off);
+    wall_tree_.emplace(wall.mesh);
 }
 
-MeshField::Border MeshField::border_of(const TriangleMesh& mesh, const MeshNormals& normals) {
-    constexpr TrianglePlace kEdges[] = {TrianglePlace::edge0, TrianglePlace::edge1, TrianglePlace::edge2};
-    Border border;
-    border.edges.positions = mesh.positions;
+// Where the nearest place of the sheet comes to be on its border: behind each of the border's edges, and,
+// where two faces meet there, the sector between the ways behind them.
+MeshField::Wall MeshField::wall_of(const TriangleMesh& mesh, const MeshNormals& normals,
+                                   double thickness_mm) {
+    constexpr TrianglePlace kEdges[] = {TrianglePlace::edge0, TrianglePlace::edge1, TrianglePlace::edge2},
+                            kCorners[] = {TrianglePlace::corner0, TrianglePlace::corner1,
+                                          TrianglePlace::corner2};
+    // Triangles in place of the arc of a sector are off by so much at most, mm.
+    constexpr double kSagitta = 1e-5;
+    constexpr int kMostParts = 64;
+    Wall wall;
+    const auto add = [&](std::initializer_list<Vec3> corners, Vec3 off) {
+        const auto first = static_cast<std::uint32_t>(wall.mesh.positions.size());
+        for (const Vec3 p : corners) wall.mesh.positions.push_back(to_float(p));
+        for (std::uint32_t n = 2; n < corners.size(); ++n) {
+            wall.mesh.triangles.push_back({first, first + n - 1, first + n});
+            wall.off.push_back(off);
+        }
+    };
+    const auto behind = [&](std::uint32_t triangle) {
+        return -thickness_mm * normals.at(mesh, triangle, TrianglePlace::face);
+    };
+    struct Side {
+        std::uint32_t low, high, triangle;
+        std::size_t edge;
+    };
+    std::vector<Side> inner;
     for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
         for (std::size_t e = 0; e < 3; ++e) {
-            if (!normals.is_border(mesh, n, kEdges[e])) continue;
             const std::uint32_t from = mesh.triangles[n][e], to = mesh.triangles[n][(e + 1) % 3];
-            border.edges.triangles.push_back({from, to, to});
-            const Vec3 along = mesh.position(to) - mesh.position(from);
-            border.off.push_back(
-                normalized(cross(along, normals.at(mesh, n, TrianglePlace::face)), {1, 0, 0}));
+            if (!normals.is_border(mesh, n, kEdges[e])) {
+                inner.push_back({std::min(from, to), std::max(from, to), n, e});
+                continue;
+            }
+            const Vec3 a = mesh.position(from), b = mesh.position(to), down = behind(n);
+            add({a, b, b + down, a + down}, normalized(cross(down, b - a), {1, 0, 0}));
         }
     }
-    return border;
+    std::ranges::sort(inner, {}, [](const Side& s) { return std::tuple(s.low, s.high, s.triangle); });
+    for (std::size_t n = 1; n < inner.size(); ++n) {
+        const Side &one = inner[n - 1], &other = inner[n];
+        if (one.low != other.low || one.high != other.high) continue;
+        const Vec3 first = behind(one.triangle), last = behind(other.triangle);
+        const double angle = std::atan2(length(cross(first, last)), dot(first, last));
+        const int parts = std::clamp(
+            static_cast<int>(std::ceil(angle / std::sqrt(8 * kSagitta / thickness_mm))), 1, kMostParts);
+        for (const std::size_t end : {one.edge, (one.edge + 1) % 3}) {
+            if (!normals.is_border(mesh, one.triangle, kCorners[end])) continue;
+            const std::uint32_t corner = mesh.triangles[one.triangle][end];
+            const Vec3 at = mesh.position(corner),
+                       inward = mesh.position(corner == one.low ? one.high : one.low) - at;
+            const auto on_arc = [&](int k) {
+                return at +
+                       thickness_mm * normalized(lerp(first, last, static_cast<double>(k) / parts), first);
+            };
+            for (int k = 0; k < parts; ++k)
+                add({at, on_arc(k), on_arc(k + 1)}, normalized(-1 * inward, {1, 0, 0}));
+        }
+    }
+    return wall;
 }
 
 contact::SurfaceSample MeshField::sample(Vec3 p) const {
@@ -68,23 +116,21 @@ contact::SurfaceSample MeshField::sample(Vec3 p) const {
         skin.distance_mm -= 0.5 * skin_;
         return skin;
     }
+    const auto to_wall = [&] {
+        const MeshTree::Nearest nearest = wall_tree_->nearest(p);
+        return std::pair(p - nearest.at.point_mm, off_[nearest.triangle]);
+    };
     if (at.on_border && is_sheet()) {
-        // Beyond the border: the wall there, from the edge of the front to the edge of the back.
-        const double up = dot(way, at.normal);
-        if (up > 0) return towards(way, at.normal);
-        const Vec3 off = border_.off[border_tree_->nearest(p).triangle], aside = way - up * at.normal;
-        return towards(up < -thickness_ ? aside + (up + thickness_) * at.normal : aside, off);
+        const auto [beyond, off] = to_wall();
+        return towards(beyond, off);
     }
     const Vec3 front = std::abs(s) > kOnSurface ? way / s : at.normal;
-    contact::SurfaceSample found{s, front, 0};
-    if (!is_sheet() || s >= 0) return found;
-    if (-s - thickness_ > s) found = {-s - thickness_, -front, 0};
-    if (found.distance_mm > 0) return found;
-    const MeshTree::Nearest edge = border_tree_->nearest(p);
-    const Vec3 off = border_.off[edge.triangle];
-    const double wall = dot(p - edge.at.point_mm, off);
-    if (wall > found.distance_mm && wall <= 0) found = {wall, off, 0};
-    return found;
+    if (!is_sheet() || s >= 0) return {s, front, 0};
+    const auto [beyond, off] = to_wall();
+    const double back = -s - thickness_, end = length(beyond);
+    if (back > 0) return end < back ? towards(beyond, off) : contact::SurfaceSample{back, -front, 0};
+    if (-end > std::max(s, back)) return {-end, end > kOnSurface ? -beyond / end : off, 0};
+    return back > s ? contact::SurfaceSample{back, -front, 0} : contact::SurfaceSample{s, front, 0};
 }
 
 }  // namespace tribo::field

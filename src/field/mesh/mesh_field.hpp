@@ -14,9 +14,9 @@
 namespace tribo::field {
 
 // The front of a sheet is the side to which its normals point (corners counter-clockwise). The sheet gets a
-// thickness behind its front, so that it also has a back, and its border is a wall: material is everything at
-// most that far behind the sheet. The front is exact. Where the sheet bends more than the thickness allows,
-// the back is what remains.
+// thickness behind its front, so that it also has a back: material is everything at most that far behind the
+// sheet, up to a wall along its border. The front is exact. Where the sheet bends more than the thickness
+// allows, the back is what remains.
 //
 // A skin has the surface in its middle: material is everything within half its thickness on either side.
 //
@@ -45,19 +45,19 @@ class MeshField final : public contact::DistanceField {
     double skin_mm() const { return skin_; }
 
   private:
-    // The edges at which a sheet ends, each with its outward direction in the plane of its triangle.
-    struct Border {
-        TriangleMesh edges;  // triangles without area
+    // The wall along the border of a sheet: its triangles, each with its outward direction.
+    struct Wall {
+        TriangleMesh mesh;
         std::vector<Vec3> off;
     };
     MeshField(TriangleMesh mesh, double thickness_mm, double skin_mm);
-    static Border border_of(const TriangleMesh& mesh, const MeshNormals& normals);
+    static Wall wall_of(const TriangleMesh& mesh, const MeshNormals& normals, double thickness_mm);
 
     MeshDistance distance_;
     double thickness_;  // 0: a solid or a skin
     double skin_;
-    Border border_;
-    std::optional<MeshTree> border_tree_;
+    std::vector<Vec3> off_;  // of the wall, by triangle
+    std::optional<MeshTree> wall_tree_;
 };
 
 }  // namespace tribo::field

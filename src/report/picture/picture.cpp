@@ -328,7 +328,7 @@ files::Image draw_part(const TriangleMesh& mesh, const std::vector<PictureLine>&
     if (options.on_ground) {
         for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
             const Vec3 p = shadow.on_ground(mesh.position(i));
-            framed.push_back({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+            framed.push_back(to_float(p));
         }
     }
     const Camera camera = frame(framed, options);

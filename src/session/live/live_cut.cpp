@@ -40,17 +40,13 @@ protocol::LiveSoundPiece live_sound_piece(const milling::CutRow& row, const cont
     return piece;
 }
 
-Point3f in_frame_precision(Vec3 v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 // Returns the cut of a row as a vibration needs it.
 protocol::LiveTeeth live_teeth(const milling::CutRow& row, const MillSetup& setup, const CutChange& change) {
     protocol::LiveTeeth teeth;
     teeth.cutter = static_cast<std::uint32_t>(row.cutter);
-    teeth.feed = in_frame_precision(row.pose.frame.x);
-    teeth.head = in_frame_precision(head_frame(row, setup).x);
-    teeth.axis = in_frame_precision(row.pose.frame.z);
+    teeth.feed = to_float(row.pose.frame.x);
+    teeth.head = to_float(head_frame(row, setup).x);
+    teeth.axis = to_float(row.pose.frame.z);
     const milling::ToolTravel travel = change.chip_factor() * row.feed;
     teeth.across_mm = static_cast<float>(travel.across_mm);
     teeth.down_mm = static_cast<float>(travel.down_mm);
