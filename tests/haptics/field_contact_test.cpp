@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 
 #include "groove_field.hpp"
 
@@ -82,6 +83,33 @@ TEST(FieldContact, an_edge_holds_no_probe_that_moves_on_the_face_behind_it) {
 }
 
 // In the hollow of a groove the nearest surface point lies on the line from the axis through the probe.
+// A groove along y with its bottom at z = 0, between two planes that lean by `half_rad` from upright.
+class SharpGroove final : public contact::DistanceField {
+  public:
+    explicit SharpGroove(double half_rad) : across_(std::cos(half_rad)), up_(std::sin(half_rad)) {}
+    double distance_mm(Vec3 p) const override { return up_ * p.z - across_ * std::abs(p.x); }
+    Vec3 normal(Vec3 p) const override { return {p.x > 0 ? -across_ : across_, 0, up_}; }
+
+  private:
+    double across_, up_;
+};
+
+TEST(FieldContact, a_sharp_groove_leads_the_proxy_along) {
+    for (const double half_deg : {12, 15, 20, 25, 30, 40, 50}) {
+        for (const double aside : {-0.1, 0.0, 0.3}) {
+            const SharpGroove groove(half_deg * std::numbers::pi / 180);
+            FieldContact contact(groove, spring_options(1));
+            contact.update({0, 0, 1});
+            for (int n = 0; n <= 20; ++n) contact.update({aside * n / 20, 0, 1 - 0.1 * n});
+            ProbeContact c;
+            for (int n = 0; n <= 100; ++n) c = contact.update({aside, 0.05 * n, -1});
+            for (int n = 0; n < 20; ++n) c = contact.update({aside, 5, -1});
+            EXPECT_NEAR(c.proxy_mm.y, 5, 0.01) << half_deg << " " << aside;
+            EXPECT_NEAR(length(c.force_n), std::hypot(1, aside), 0.01) << half_deg << " " << aside;
+        }
+    }
+}
+
 TEST(FieldContact, in_a_groove_the_force_is_that_of_the_nearest_surface_point) {
     const Grooves grooves(1, 0.025);
     FieldContact contact(grooves, spring_options(1));

@@ -45,7 +45,7 @@ void FieldContact::renew_anchor() {
     for (double height = height_; anchor_.radius <= kSkin && height > kSkin && budget(1); height *= 0.25) {
         const Vec3 at = at_.proxy + height * up;
         const Anchor a{at, clearance_mm(at, height, true)};
-        if (a.radius > (1 - kTouches) * height) anchor_ = a;
+        if (a.radius > kSkin && reaches_down(a, at_.proxy, std::max(kTouches * height, skin()))) anchor_ = a;
     }
 }
 
