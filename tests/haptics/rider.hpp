@@ -16,6 +16,14 @@ struct Rides {
     long stuck = 0;  // of not_least: for half of the hold the proxy has neither moved nor settled
 };
 
+// Of a ball to the surface, asked anew. In material: minus about its depth.
+inline double room_of_ball(const contact::DistanceField& field, Vec3 centre, double radius) {
+    const double air = field.distance_mm(centre);
+    if (radius == 0 || air <= 0) return air - radius;
+    contact::NearHint none;
+    return field.nearest(centre, 2 * radius + 0.1, none).distance_mm - radius;
+}
+
 class Rider {
   public:
     Rider(const contact::DistanceField& field, double radius, double hz, Rides& rides)
@@ -64,13 +72,7 @@ class Rider {
         o.tick_s = 1 / hz_;
         return o;
     }
-    // Of the probe to the surface, asked anew.
-    double room(Vec3 centre) const {
-        const double air = field_.distance_mm(centre);
-        if (radius_ == 0 || air <= 0) return air - radius_;
-        contact::NearHint none;
-        return field_.nearest(centre, 2 * radius_ + 0.1, none).distance_mm - radius_;
-    }
+    double room(Vec3 centre) const { return room_of_ball(field_, centre, radius_); }
     // Whether a way of 3 or 20 um from a place leads through air by a fifth of its length nearer to the
     // probe.
     bool comes_nearer(Vec3 from) const {

@@ -125,7 +125,8 @@ ProbeContact FieldContact::tick(Vec3 probe, double turned_mm) noexcept {
         }
     }
     if (phase_ == Phase::touching && (!settled_ || braced_)) (void)push_out();
-    const bool stuck = phase_ == Phase::touching && (!settled_ || is_wedged()) && gap_.radius_mm() > 0 &&
+    const bool stuck = phase_ == Phase::touching && (!settled_ || is_wedged()) &&
+                       (gap_.radius_mm() > 0 || gap_.balls() > 1) &&
                        distance(at_.proxy, last_proxy_) < kCreeping * distance(at_.proxy, probe);
     stuck_s_ = stuck && measure(probe).gap_mm > kSkin ? stuck_s_ + options_.tick_s : 0;
     sticking_ = distance(at_.proxy, last_proxy_) < options_.stick_mm_per_s * options_.tick_s;
@@ -435,11 +436,22 @@ void FieldContact::stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces
 }
 
 // Brings a proxy that has come to stand in material (a nearest place was missed, or the probe has turned) out
-// along the normals; where that does not do, back to the air that it is tied to or to where it last rested.
+// along the normals; where that does not do, back to the air that it is tied to or to where it last rested; a
+// probe that has turned may find no room near by and is held where it is least deep.
 // Whether it stood there, or on another side than was known.
 bool FieldContact::push_out() {
+    Vec3 least_deep = at_.proxy;
+    double depth_mm = 1e30;
+    const auto look = [&](Vec3 at) {
+        const ProbeGap::Gap g = measure(at);
+        if (-g.gap_mm < depth_mm) {
+            depth_mm = -g.gap_mm;
+            least_deep = at;
+        }
+        return g;
+    };
     for (int n = 0; n < kMostPushes; ++n) {
-        const ProbeGap::Gap g = measure(at_.proxy);
+        const ProbeGap::Gap g = look(at_.proxy);
         if (g.gap_mm >= -std::max(2 * kSkin, skin())) {
             if (n > 0 || at_.sides.count > 1 || dot(g.normal, up_from(at_)) > kSameSide) return n > 0;
             stand_on(g, {});
@@ -450,12 +462,14 @@ bool FieldContact::push_out() {
         stand_on(g, g.gap_mm > -kLens ? at_.sides : contact::HalfSpaces{});
     }
     for (const Vec3 back : {anchor_.at, rested_mm_}) {
-        anchor_ = {back, measure(back).gap_mm};
+        anchor_ = {back, look(back).gap_mm};
         at_.proxy = back;
         phase_ = Phase::free;
         if (anchor_.radius > -kLens) return true;
     }
-    phase_ = Phase::climb;
+    at_.proxy = least_deep;
+    stand_on(measure(least_deep), {});
+    phase_ = Phase::touching;
     return true;
 }
 
@@ -470,7 +484,7 @@ ProbeContact FieldContact::answer(Vec3 probe) {
     if (phase_ != Phase::touching || (!settled_ && !(s.press_mm > 0))) {
         // On its way through the air: nothing is felt of it unless the probe is in material. As deep as it is
         // there it is pushed back, out of the surface or, where that is the far side of a wall, to the proxy.
-        if (settled_ || phase_ == Phase::climb) return c;
+        if (settled_) return c;
         const ProbeGap::Gap g = measure(probe);
         if (g.gap_mm >= 0) return c;
         c.in_contact = true;

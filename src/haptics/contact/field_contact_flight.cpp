@@ -30,13 +30,16 @@ bool FieldContact::is_open(Vec3 from, Vec3 to) {
 
 // A ball as wide as a slot may be wedged at its mouth, or creep along its walls, where no free ball has room
 // to lead it on. Where the probe has long been in air, and no wall is between its centre and the proxy's,
-// straight or along the sides that hold the proxy, it begins anew from there.
+// straight or along the sides that hold the proxy, it begins anew from there; so does a probe that has turned
+// where there was no room for it.
 void FieldContact::release_stuck_proxy(Vec3 probe) {
     stuck_s_ = 0;
     const double room = measure(probe).gap_mm;
     if (room <= kSkin) return;
     const Vec3 aside = at_.proxy + split(at_, probe).rest;
-    if (!is_open(at_.proxy, probe) && !(is_open(at_.proxy, aside) && is_open(aside, probe))) return;
+    const bool was_cut_off = anchor_.radius < -skin();
+    if (!was_cut_off && !is_open(at_.proxy, probe) && !(is_open(at_.proxy, aside) && is_open(aside, probe)))
+        return;
     anchor_ = {probe, room};
     at_.proxy = last_proxy_ = probe;
     phase_ = Phase::free;
