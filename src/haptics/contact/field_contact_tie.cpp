@@ -11,6 +11,8 @@ namespace {
 constexpr double kTouches = 0.01;
 // It is so many steps high at least: the next ones end at the same ball.
 constexpr double kStepsHigh = 2;
+// Where there is room for less than this share of its height another way leads up.
+constexpr double kCramped = 0.25;
 
 }  // namespace
 
@@ -94,7 +96,7 @@ bool FieldContact::tie(const Place& to) {
         // in a sharp groove between the two ways.
         Vec3 tilted = up;
         if (tries == 0) tilted = normalized(up + measure(at).normal, up);
-        if (tries == 1 && a.radius < 0) tilted = normalized(first + up, up);
+        if (tries == 1 && a.radius < kCramped * height) tilted = normalized(first + up, up);
         if (dot(tilted, up) < kOneSide) {
             up = tilted;
         } else {
