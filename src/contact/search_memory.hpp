@@ -4,6 +4,7 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -50,7 +51,8 @@ class SearchMemory {
     static std::size_t number_of(Vec3 start_mm, int bits) {
         // Any spread of nearby starts does: those of one grid differ by parts of a cell.
         const double mixed = 7919 * start_mm.x + 104729 * start_mm.y + 1299709 * start_mm.z;
-        return std::bit_cast<std::uint64_t>(mixed) * 0x9e3779b97f4a7c15U >> (64 - bits);
+        return static_cast<std::size_t>(std::bit_cast<std::uint64_t>(mixed) * 0x9e3779b97f4a7c15U >>
+                                        (64 - bits));
     }
 
     std::array<Search, 1 << kSearchBits> search_;
