@@ -7,6 +7,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/math.hpp"
+
 namespace tribo::field {
 namespace {
 
@@ -88,7 +90,7 @@ MeshField::Wall MeshField::wall_of(const TriangleMesh& mesh, const MeshNormals& 
         const Side &one = inner[n - 1], &other = inner[n];
         if (one.low != other.low || one.high != other.high) continue;
         const Vec3 first = behind(one.triangle), last = behind(other.triangle);
-        const double angle = std::atan2(length(cross(first, last)), dot(first, last));
+        const double angle = math::atan2(length(cross(first, last)), dot(first, last));
         const int parts = std::clamp(
             static_cast<int>(std::ceil(angle / std::sqrt(8 * kSagitta / thickness_mm))), 1, kMostParts);
         for (const std::size_t end : {one.edge, (one.edge + 1) % 3}) {
