@@ -20,8 +20,9 @@ namespace tribo::field {
 //
 // A skin has the surface in its middle: material is everything within half its thickness on either side.
 //
-// Distances in air are exact, by a search in a tree of boxes (about a microsecond). Any number of threads; no
-// allocation.
+// Distances in air are exact, by a search in a tree of boxes (about a microsecond), but beyond the border of
+// a bent sheet: there they are those to its wall (sheet_wall.hpp), although its back may be a little nearer.
+// Any number of threads; no allocation.
 class MeshField final : public contact::DistanceField {
   public:
     static constexpr double kThicknessMm = 1;
@@ -45,18 +46,12 @@ class MeshField final : public contact::DistanceField {
     double skin_mm() const { return skin_; }
 
   private:
-    // The wall along the border of a sheet: its triangles, each with its outward direction.
-    struct Wall {
-        TriangleMesh mesh;
-        std::vector<Vec3> off;
-    };
     MeshField(TriangleMesh mesh, double thickness_mm, double skin_mm);
-    static Wall wall_of(const TriangleMesh& mesh, const MeshNormals& normals, double thickness_mm);
 
     MeshDistance distance_;
     double thickness_;  // 0: a solid or a skin
     double skin_;
-    std::vector<Vec3> off_;  // of the wall, by triangle
+    std::vector<Vec3> off_;  // of the wall of a sheet, by triangle
     std::optional<MeshTree> wall_tree_;
 };
 
