@@ -16,13 +16,18 @@ constexpr double kParallel = 1e-10;
 }  // namespace
 
 void HalfSpaces::put(const HalfSpace& h, double alike) {
+    HalfSpace* same = nullptr;
     for (int n = 0; n < count; ++n) {
         HalfSpace& s = side[static_cast<std::size_t>(n)];
-        if (s.piece == h.piece && dot(s.normal, h.normal) > alike) {
-            s.normal = h.normal;
-            s.offset = h.offset;
-            return;
-        }
+        const double likeness = dot(s.normal, h.normal);
+        if (s.piece != h.piece || !(likeness > alike)) continue;
+        alike = likeness;
+        same = &s;
+    }
+    if (same != nullptr) {
+        same->normal = h.normal;
+        same->offset = h.offset;
+        return;
     }
     if (count == kMost) {
         for (std::size_t n = 1; n < kMost; ++n) side[n - 1] = side[n];

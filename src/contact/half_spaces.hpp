@@ -28,8 +28,8 @@ struct HalfSpaces {
     std::array<HalfSpace, kMost> side;
     int count = 0;
 
-    // Moves the half-space of the same piece (angle of the normals within acos(alike)), which keeps its bend,
-    // else adds one. A full set drops the oldest one.
+    // Moves the half-space of the same piece whose normal is most alike (product above `alike`), which keeps
+    // its bend, else adds one. A full set drops the oldest one.
     void put(const HalfSpace& h, double alike);
     // If the set is full, drops the one that a point is deepest in.
     void make_room(Vec3 at);

@@ -29,9 +29,9 @@ Rides ride_anywhere(std::uint64_t seed, std::uint64_t scenes, double meeting_sha
             const Vec3 start = stock.on_way(draw);
             hand.begin({start.x, start.y, above});
             std::array<Vec3, 4> way;
-            way[0] = start + draw.aside(1) + Vec3{0, 0, radius + draw.between(-0.6, 1.5)};
-            way[1] = way[0] + draw.aside(4) + Vec3{0, 0, draw.between(-1, 3)};
-            way[2] = way[1] + draw.aside(4) + Vec3{0, 0, draw.between(-2, 2)};
+            way[0] = start + Vec3{0, 0, radius} + draw.aside(1, -0.6, 1.5);
+            way[1] = way[0] + draw.aside(4, -1, 3);
+            way[2] = way[1] + draw.aside(4, -2, 2);
             way[3] = {way[2].x, way[2].y, above};
             for (const Vec3& to : way) {
                 hand.go(to, draw.between(300, 2000));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // A hand that goes anywhere on meshes of other people: into them, through them, and held.
-#include <cmath>
 #include <gtest/gtest.h>
 #include <string>
 
@@ -14,11 +13,6 @@ namespace {
 using test::Rider;
 using test::Rides;
 using tribo::test::Draw;
-
-Vec3 any_direction(Draw& draw) {
-    const double z = draw.between(-1, 1), u = draw.between(0, math::kTwoPi), r = std::sqrt(1 - z * z);
-    return {r * std::cos(u), r * std::sin(u), z};
-}
 
 enum class Kind { bumpy_ball, star, wide_star, sheet };
 
@@ -42,11 +36,11 @@ Rides ride_meshes(std::uint64_t seed, std::uint64_t scenes, Kind kind, bool poin
             constexpr double kRates[] = {1000, 4000, 10000};
             const double radius = points ? 0 : draw.between(0.05, 2);
             Rider hand(**made, radius, draw.one_of(kRates), rides);
-            hand.begin(middle + (1.5 * half + radius + 3) * any_direction(draw));
+            hand.begin(middle + (1.5 * half + radius + 3) * draw.direction());
             Vec3 to;
             for (int hold = 0; hold < 5; ++hold) {
-                to = hold < 3 ? middle + draw.between(0, 0.9) * half * any_direction(draw)
-                              : to + draw.between(0, 2) * any_direction(draw);
+                const double far = hold < 3 ? draw.between(0, 0.9) * half : draw.between(0, 2);
+                to = (hold < 3 ? middle : to) + far * draw.direction();
                 hand.go(to, draw.between(100, 2000));
                 hand.hold(false);
             }

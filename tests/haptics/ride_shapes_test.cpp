@@ -35,7 +35,10 @@ class ShapeRider {
         update(at, stylus);
     }
     void go(Vec3 to, Vec3 stylus, double mm_per_s) {
-        const int ticks = std::max(1, static_cast<int>(std::ceil(distance(at_, to) / mm_per_s * hz_)));
+        // No wrist turns faster.
+        constexpr double kTurn = 20;  // rad/s
+        const double seconds = std::max(distance(at_, to) / mm_per_s, distance(stylus_, stylus) / kTurn);
+        const int ticks = std::max(1, static_cast<int>(std::ceil(seconds * hz_)));
         for (int n = 1; n <= ticks; ++n) {
             const double share = static_cast<double>(n) / ticks;
             update(lerp(at_, to, share), normalized(lerp(stylus_, stylus, share)));
@@ -83,22 +86,22 @@ TEST(RideShapes, pushes_back_a_turning_stylus_and_a_finger_and_nothing_above_the
             const AnyPasses stock(draw, 0.3, upright);
             for (int k = 0; k < 4; ++k) {
                 constexpr double kRates[] = {1000, 4000};
-                const double radius = finger ? 0 : draw.between(0, 1), length_mm = draw.between(5, 20);
+                const double radius = finger ? 0 : draw.between(0, 1), length_mm = draw.between(5, 20),
+                             finger_mm = draw.between(1, 6), hz = draw.one_of(kRates);
                 ShapeRider hand(
-                    stock,
-                    finger ? ProbeShape::cylinder(draw.between(1, 6), length_mm) : ProbeShape::ray(length_mm),
-                    radius, draw.one_of(kRates));
+                    stock, finger ? ProbeShape::cylinder(finger_mm, length_mm) : ProbeShape::ray(length_mm),
+                    radius, hz);
                 const Vec3 start = stock.on_way(draw);
                 Vec3 at{start.x, start.y, 10}, stylus = normalized(Vec3{0, 0, 1} + draw.aside(0.5));
                 hand.begin(at, stylus);
                 for (int part = 0; part < 4; ++part) {
                     const bool out = upright && part == 3;
                     if (part == 0)
-                        at = start + draw.aside(1) + Vec3{0, 0, radius + draw.between(-0.6, 1.5)};
+                        at = start + Vec3{0, 0, radius} + draw.aside(1, -0.6, 1.5);
                     else if (part == 3)
                         at.z = 30;
                     else
-                        at += draw.aside(4) + Vec3{0, 0, draw.between(-1, 2)};
+                        at += draw.aside(4, -1, 2);
                     stylus = normalized(stylus + draw.aside(0.4));
                     hand.go(at, stylus, draw.between(100, 1500));
                     hand.hold(out, rides);

@@ -47,8 +47,9 @@ struct AnyPasses {
                 cutter.length_mm = 60;
                 if (cutter.kind == CutterKind::bull)
                     cutter.corner_mm = draw.between(0.1, 0.45) * cutter.diameter_mm;
-                const Vec3 middle = draw.aside(5) + Vec3{0, 0, draw.between(-12, -1)},
-                           half = draw.between(1.5, 10) * normalized(draw.aside(1), Vec3{1, 0, 0});
+                const Vec3 middle = draw.aside(5, -12, -1);
+                const double half_mm = draw.between(1.5, 10);
+                const Vec3 half = half_mm * normalized(draw.aside(1), Vec3{1, 0, 0});
                 const bool turns = draw.by_chance(0.5);
                 move.start = {middle - half, normalized(Vec3{0, 0, 1} + draw.aside(upright ? 0 : 0.3))};
                 move.end = {middle + half + Vec3{0, 0, draw.by_chance(0.3) ? draw.between(-2, 2) : 0},

@@ -17,7 +17,7 @@ TEST(CarvedDistance, is_that_of_the_shape_that_leaves_least) {
         const test::AnyPasses stock(draw, 0, n % 2 == 0);
         const double cell = stock.field->cell_mm();
         for (int k = 0; k < 20000; ++k) {
-            const Vec3 p = draw.aside(12) + Vec3{0, 0, draw.between(-16, 0.5)};
+            const Vec3 p = draw.aside(12, -16, 0.5);
             double want = stock.shapes[0]->distance_mm(p);
             for (std::size_t s = 1; s < stock.shapes.size(); ++s)
                 want = std::max(want, -stock.shapes[s]->distance_mm(p));

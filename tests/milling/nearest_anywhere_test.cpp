@@ -52,9 +52,10 @@ Checked walk_anywhere(std::uint64_t seed, std::uint64_t scenes, double meeting_s
         const test::AnyPasses stock(draw, meeting_share, n % 2 == 0);
         for (int walk = 0; walk < 6; ++walk) {
             const double radius = draw.between(0.1, 1.5), within = (walk % 3 == 0 ? 1.2 : 2) * radius;
-            Vec3 p = stock.on_way(draw) + draw.aside(2) + Vec3{0, 0, draw.between(0, 4)};
-            const Vec3 step = draw.between(0.01, 0.3) *
-                              normalized(draw.aside(1) + Vec3{0, 0, draw.between(-1, 1)}, Vec3{1, 0, 0});
+            const Vec3 on_way = stock.on_way(draw);
+            Vec3 p = on_way + draw.aside(2, 0, 4);
+            const double way = draw.between(0.01, 0.3);
+            const Vec3 step = way * normalized(draw.aside(1, -1, 1), Vec3{1, 0, 0});
             contact::NearHint hint;
             hint.at_mm = hint.from_mm = p;
             for (int k = 0; k < 12; ++k, p += step) {

@@ -24,6 +24,8 @@ constexpr double kGain = 0.1, kBeyond = 1.25;
 constexpr double kLittleShorter = 0.75;
 // Normals less apart than this are of the same place of a side (product).
 constexpr double kSameSide = 0.9999;
+// Normals at both ends of the shortest step that are less alike are of two sides.
+constexpr double kCrease = 1 - 1e-7;
 // So far a corner is looked into behind its sides, mm, where the way between the others goes behind it by at
 // least this share.
 constexpr double kLook = 1e-3, kLeastBehind = 0.01;
@@ -36,7 +38,9 @@ constexpr double kLeft = 1e-3;
 constexpr double kLeap = 0.02;
 constexpr int kMostLandings = 3;
 // So often a proxy in material is pushed out; in a corner of bent sides each push takes most of the depth.
+// Farther away than so many times its depth, or kHighest, is not where it came from.
 constexpr int kMostPushes = 8;
+constexpr double kPushedFar = 4;
 // A proxy that in a tick comes by less than this share of its way, and this for so long, s, is let go where
 // the probe is in air.
 constexpr double kCreeping = 0.1, kStuckS = 3e-3;
@@ -185,11 +189,18 @@ Vec3 FieldContact::step_for(const Split& way) {
     return limited(goal * step, stride_mm_);
 }
 
+// Of normals: how alike a new side of a corner is to be to one of them to take its place. Where it rises out
+// of that, as in a hollow or at a shallow valley, the free space is bounded by both.
+double FieldContact::alike_in(const contact::HalfSpaces& corner, bool rises) {
+    return rises && corner.count > 1 && corner.count < contact::HalfSpaces::kMost ? kApart : kOneSide;
+}
+
 // Puts a place onto the surface that was seen from it: down to a side that it stands on alone, into the
 // corner of all its sides otherwise. Whether its sides have stayed.
 bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
     const Vec3 landed = place.proxy - seen.gap_mm * seen.normal;
     const bool bends = place.sides.count <= 1 && dot(seen.normal, place.normal) > kOneSide;
+    const double alike = alike_in(place.sides, seen.gap_mm < -skin());
     if (bends) {
         place.proxy = landed;
         place.sides = {};
@@ -199,10 +210,10 @@ bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
             contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
             h.offset = dot(h.normal, place.proxy);
         }
-        corner.put({-seen.normal, -dot(seen.normal, landed), 0}, kOneSide);
+        corner.put({-seen.normal, -dot(seen.normal, landed), 0}, alike);
         place.proxy = corner.nearest(place.proxy);
     }
-    place.sides.put(side_of(seen.normal), kOneSide);
+    place.sides.put(side_of(seen.normal), alike);
     place.touch(seen);
     // What is nearest to a ball in air is so too where it comes down on it.
     place.leap_mm = bends && gap_.radius_mm() > 0 ? std::max(0.0, -seen.gap_mm) : std::abs(seen.gap_mm);
@@ -260,6 +271,8 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
         land_on_side(to, trial, g, size);
         return Landing::on_surface;
     }
+    const contact::HalfSpace side{-g.normal, -dot(g.normal, trial - g.gap_mm * g.normal), 0};
+    const double alike_side = alike_in(from.sides, side.above(from.proxy) < -kLeft * size);
     if (g.gap_mm < -kSkin || alone) {
         // Another side is in the way, or just reached: the proxy stands where all of them meet.
         contact::HalfSpaces corner = from.sides;
@@ -267,7 +280,7 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
             contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
             h.offset = dot(h.normal, from.proxy);
         }
-        corner.put({-g.normal, -dot(g.normal, trial - g.gap_mm * g.normal), 0}, kOneSide);
+        corner.put(side, alike_side);
         const Vec3 straight = from.proxy + (size / way.rest_mm) * way.rest;
         to.proxy = corner.nearest(straight);
         // Not between here and the trial: the far side of a wall.
@@ -287,7 +300,7 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
         to.sides = {};
         for (int i = 0; i < from.sides.count; ++i) {
             const contact::HalfSpace& h = from.sides.side[static_cast<std::size_t>(i)];
-            if (dot(h.normal, to.proxy - from.proxy) > -kOff * size) to.sides.put(h, kOneSide);
+            if (dot(h.normal, to.proxy - from.proxy) > -kOff * size) to.sides.put(h, kApart);
         }
     } else {
         // Along a corner: a side that the step has left is not there, nor one behind which there is air.
@@ -298,10 +311,10 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
         for (int i = 0; i < from.sides.count; ++i) {
             const contact::HalfSpace& h = from.sides.side[static_cast<std::size_t>(i)];
             if (dot(h.normal, step) > -kLeft * size && dot(h.normal, to.proxy - from.proxy) < left)
-                to.sides.put(h, kOneSide);
+                to.sides.put(h, kApart);
         }
     }
-    to.sides.put(side_of(g.normal), kOneSide);
+    to.sides.put(side_of(g.normal), alike_side);
     to.touch(g);
     to.leap_mm = std::abs(g.gap_mm);
     return Landing::on_surface;
@@ -360,7 +373,7 @@ FieldContact::Next FieldContact::look_behind_sides(const Split& way) {
         if ((left_out >> n & 1) != 0)
             out[static_cast<std::size_t>(count++)] = h.normal;
         else
-            others.put(h, kOneSide);
+            others.put(h, kApart);
     }
     const Vec3 along = count == 1 ? others.nearest(out[0]) : normalized(others.nearest(way.press), Vec3{});
     // So deep behind them that is.
@@ -370,6 +383,9 @@ FieldContact::Next FieldContact::look_behind_sides(const Split& way) {
         return Next::nothing;
     sides = others;
     at_.normal = up_from(at_);
+    // A flight from farther away might come back to here.
+    const Vec3 to_probe = way.rest + way.press;
+    if (gap_.radius_mm() > 0 && others.nearest(to_probe) == to_probe) anchor_ = {at_.proxy, 0};
     settled_ = false;
     moved_ = true;
     // A longer step would see it again from too far.
@@ -423,9 +439,22 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
     }
     side_step_.interrupt();
     if (stride_mm_ >= skin()) return Next::more;
+    if (!nearer && is_valley(to, step)) {
+        at_.sides.put(side_of(to.normal), kApart);
+        at_.normal = up_from(at_);
+        stride_mm_ = kLook;
+        moved_ = true;
+        return Next::more;
+    }
     // Where the shortest step comes no nearer, the proxy is as near as it can come.
     settled_ = braced_ = !nearer;
-    return Next::nothing;
+    return settled_ && at_.sides.count > 1 ? look_behind_sides(way) : Next::nothing;
+}
+
+// Whether the shortest step has led over the bottom of a valley of two sides that are nearly one.
+bool FieldContact::is_valley(const Place& to, Vec3 step) const {
+    return at_.sides.count == 1 && to.sides.count == 1 && dot(to.normal, at_.normal) < kCrease &&
+           dot(to.normal, step) < 0;
 }
 
 // On the side that was seen, held by others too.
@@ -450,8 +479,11 @@ bool FieldContact::push_out() {
         }
         return g;
     };
-    for (int n = 0; n < kMostPushes; ++n) {
+    const Vec3 start = at_.proxy;
+    double far_mm = 1e30;
+    for (int n = 0; n < kMostPushes && distance(at_.proxy, start) <= far_mm; ++n) {
         const ProbeGap::Gap g = look(at_.proxy);
+        if (n == 0) far_mm = kPushedFar * std::min(-g.gap_mm, kHighest);
         if (g.gap_mm >= -std::max(2 * kSkin, skin())) {
             if (n > 0 || at_.sides.count > 1 || dot(g.normal, up_from(at_)) > kSameSide) return n > 0;
             stand_on(g, {});

@@ -106,6 +106,8 @@ class FieldContact {
     static constexpr double kLens = 5e-4;
     // Normals within about 18 degrees are one side that bends; beyond, two sides that meet.
     static constexpr double kOneSide = 0.95;
+    // No two normals are as alike: every side is one of its own.
+    static constexpr double kApart = 2;
     // A refused step is followed by one of this share.
     static constexpr double kShorter = 0.25;
     static constexpr double kLowest = 1e-4, kHighest = 0.5;  // height of the anchor, mm
@@ -144,6 +146,8 @@ class FieldContact {
     enum class Landing { on_surface, over_edge, none };
     Landing land(const Place& from, Vec3 step, const Split& way, Place& to);
     bool correct(Place& place, const ProbeGap::Gap& seen) const;
+    static double alike_in(const contact::HalfSpaces& corner, bool rises);
+    bool is_valley(const Place& to, Vec3 step) const;
     void land_on_side(Place& to, Vec3 trial, ProbeGap::Gap seen, double size_mm);
     void stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces& others);
     bool push_out();

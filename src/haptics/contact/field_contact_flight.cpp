@@ -14,16 +14,20 @@ constexpr double kNear = 0.02, kNearBall = 0.1;
 constexpr double kLow = 0.9, kLift = 0.1;
 // At an edge a face goes on if it is still there so far beyond it, mm, and so square to the way.
 constexpr double kPeek = 1e-5, kGrazing = 0.1;
+// A way of a stuck ball that comes so near to a wall, of its radius, is none.
+constexpr double kNarrow = 0.02;
 
 }  // namespace
 
-// Whether no wall is between two places of the centres of the probe's balls.
+// Whether no wall is between two places of the centres of the probe's balls, nor a gap that is much narrower
+// than they are.
 bool FieldContact::is_open(Vec3 from, Vec3 to) {
-    for (int links = 0;; ++links) {
+    const double least = std::max(kSkin, kNarrow * gap_.radius_mm());
+    for (;;) {
         ++queries_;
         const double way = distance(to, from), free = gap_.room_of_centres_mm(*field_, from, way);
         if (way <= free) return true;
-        if (free < kSkin || links == kMostLinks || !budget(1)) return false;
+        if (free < least || !budget(1)) return false;
         from += (free / way) * (to - from);
     }
 }
@@ -38,8 +42,13 @@ void FieldContact::release_stuck_proxy(Vec3 probe) {
     if (room <= kSkin) return;
     const Vec3 aside = at_.proxy + split(at_, probe).rest;
     const bool was_cut_off = anchor_.radius < -skin();
-    if (!was_cut_off && !is_open(at_.proxy, probe) && !(is_open(at_.proxy, aside) && is_open(aside, probe)))
+    if (!was_cut_off && !is_open(at_.proxy, probe) && !(is_open(at_.proxy, aside) && is_open(aside, probe))) {
+        // A turn may have taken the way from its anchor to it: back to that.
+        if (gap_.balls() == 1 || anchor_.radius <= kSkin) return;
+        at_.proxy = last_proxy_ = anchor_.at;
+        phase_ = Phase::free;
         return;
+    }
     anchor_ = {probe, room};
     at_.proxy = last_proxy_ = probe;
     phase_ = Phase::free;
