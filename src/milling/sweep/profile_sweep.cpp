@@ -209,7 +209,7 @@ class SearchedSweep final : public field::Shape {
         const Vec3 d = point - start_;
         const TravelBounds& b = line_.bounds;
         const double reach = length(d - b.middle) + b.spread;
-        const double bend = b.tip_bend + 2 * b.turn * b.speed + (b.turn_rate + b.turn * b.turn) * reach;
+        const double curve = b.tip_bend + 2 * b.turn * b.speed + (b.turn_rate + b.turn * b.turn) * reach;
         std::array<ZonesView, kMostInstants> views;
         for (int k = 0; k < instants_; ++k)
             views[static_cast<std::size_t>(k)] = zones_view(line_, d, time(k));
@@ -218,6 +218,7 @@ class SearchedSweep final : public field::Shape {
         Least best{bound, 0, 0};
         double lowest_floor = kNoBound;
         for (std::size_t zone = 0; zone < zones_->size(); ++zone) {
+            const double bend = curve + zones_->bend_per_mm(zone) * speed * speed;
             std::array<Stretch, kDepth> open;
             int count = 0;
             const auto goal = [&] {

@@ -3,10 +3,11 @@
 //
 // Level moves (straight or along an arc, across the axis) come nearest where the axis does, because the
 // profile never hangs back: the distance is that of the profile, exact. On all other moves the least distance
-// over the travel is searched for each convex zone of the cutter (convex_zones.hpp) by branch and bound: with
+// over the travel is searched for each zone of the cutter (convex_zones.hpp) by branch and bound: with
 // |q''| <= bend for the point q as the tool sees it, the distance g(t) = F(q(t)) to a convex zone satisfies
 //     g(s) >= g(t) + g'(t) (s - t) - bend (s - t)^2 / 2,
-// and two such parabolas bound it between two instants. Ramps and plunges have bend 0. The search ends
+// and two such parabolas bound it between two instants. Ramps and plunges have bend 0. In front of a concave
+// arc |q'|^2 times its bend is added. The search ends
 // kProvenMm below the surface; beyond it only the side is exact. The cutter ends flat at length_mm at every
 // instant: what stands above it stays, for the shank to collide with.
 #pragma once

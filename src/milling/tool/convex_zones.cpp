@@ -18,8 +18,10 @@ constexpr double kLevel = 1e-6;
 constexpr double kNearMm = 1e-7;
 // Half of the shortest chord that is more than a touch, mm.
 constexpr double kTouchMm = 1e-4;
-// Limit of the tangents of one concave arc.
-constexpr int kMostTangents = 1000;
+// Up to this share of its radius from a concave arc the distance is the way to it.
+constexpr double kTrueShare = 0.5;
+// The ends of a concave arc are looked for from tangents, this far apart at most, rad.
+constexpr double kTangentStep = 0.02;
 
 // A ray at s from 0: from + s * way, |way| = 1.
 struct Ray {
@@ -74,10 +76,28 @@ std::optional<PlanePoint> half_way(const std::vector<ProfileElement>& elements, 
 ConvexZones::Seen ConvexZones::Face::look(PlanePoint at) const {
     if (radius_mm == 0) return {dot(first, at) - offset_mm, first};
     const PlanePoint d = at - centre;
+    if (radius_mm < 0) return look_into_hollow(d);
     const double size = norm(d);
     if (size > 0 && cross(first, d) >= 0 && cross(d, last) >= 0) return {size - radius_mm, (1 / size) * d};
     const double by_first = dot(first, d), by_last = dot(last, d);
     return by_first >= by_last ? Seen{by_first - radius_mm, first} : Seen{by_last - radius_mm, last};
+}
+
+// The least of the distances to all tangents of the arc: of those within it one is tangent where the way from
+// the centre leads. Beyond kTrueShare of the radius a parabola goes on, so that the centre is no peak.
+ConvexZones::Seen ConvexZones::Face::look_into_hollow(PlanePoint off) const {
+    const double radius = -radius_mm, size = norm(off), far = (1 - kTrueShare) * radius;
+    Seen seen;
+    if (size > 0 && cross(first, off) >= 0 && cross(off, last) >= 0) {
+        seen = {radius - size, (-1 / size) * off};
+    } else {
+        const double by_first = dot(first, off), by_last = dot(last, off);
+        seen = by_first <= by_last ? Seen{radius + by_first, first} : Seen{radius + by_last, last};
+    }
+    const double beyond = std::min(seen.distance_mm - kTrueShare * radius, far);
+    if (beyond <= 0) return seen;
+    const double slope = 1 - beyond / far;
+    return {kTrueShare * radius + 0.5 * (1 + slope) * beyond, slope * seen.normal};
 }
 
 // A run of elements from `first` to before `end` without a concave joint.
@@ -137,30 +157,35 @@ void ConvexZones::add_run(const std::vector<ProfileElement>& elements, const Run
     zones_.push_back({first, faces_.size()});
 }
 
-// Between two tangents the arc is off their corner by radius * step^2 / 8.
+// A level tangent has no height: the ends are those of the first and the last one that is not level.
 void ConvexZones::add_concave(const std::vector<ProfileElement>& elements, std::size_t number) {
     const ProfileElement& arc = elements[number];
     const double angle =
         math::atan2(cross(arc.from_normal, arc.to_normal), dot(arc.from_normal, arc.to_normal));
-    const double step = std::sqrt(8 * kConcaveErrorMm / -arc.radius_mm);
-    const int count = std::clamp(static_cast<int>(std::ceil(std::abs(angle) / step)), 1, kMostTangents);
-    for (int n = 0; n <= count; ++n) {
+    const int count = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / kTangentStep)));
+    struct Tangent {
+        PlanePoint at, normal;
+    };
+    const auto tangent = [&](int n) -> Tangent {
         double sine, cosine;
         math::sincos(angle * n / count, sine, cosine);
         const PlanePoint a = arc.from_normal;
         const PlanePoint normal{a.r * cosine - a.z * sine, a.z * cosine + a.r * sine};
-        // A level tangent has no height; those beside it and the element behind it are enough.
-        if (std::abs(normal.r) < kLevel) continue;
-        const PlanePoint at = arc.centre + arc.radius_mm * normal;
-        const std::size_t first = faces_.size();
-        faces_.push_back({normal, normal, dot(normal, at), {}, 0});
-        const double low = n == 0 ? add_lower_end(elements, number, normal)
-                                  : add_end(-1, half_way(elements, at, -1.0 * along(normal)));
-        const double high = n == count ? add_upper_end(elements, number, normal)
-                                       : add_end(1, half_way(elements, at, along(normal)));
-        add_side(std::max({at.r, low, high}));
-        zones_.push_back({first, faces_.size()});
-    }
+        return {arc.centre + arc.radius_mm * normal, normal};
+    };
+    const auto is_level = [&](int n) { return std::abs(tangent(n).normal.r) < kLevel; };
+    int low = 0, high = count;
+    while (low < count && is_level(low)) ++low;
+    while (high > 0 && is_level(high)) --high;
+    const std::size_t first = faces_.size();
+    add_face(arc);
+    const Tangent lowest = tangent(low), highest = tangent(high);
+    const double below = low == 0 ? add_lower_end(elements, number, lowest.normal)
+                                  : add_end(-1, half_way(elements, lowest.at, -1.0 * along(lowest.normal)));
+    const double above = high == count ? add_upper_end(elements, number, highest.normal)
+                                       : add_end(1, half_way(elements, highest.at, along(highest.normal)));
+    add_side(std::max({arc.from.r, arc.to.r, below, above}));
+    zones_.push_back({first, faces_.size(), 1 / (-arc.radius_mm * kTrueShare)});
 }
 
 ConvexZones::ConvexZones(const Cutter& cutter) : length_mm_(cutter.length_mm) {
