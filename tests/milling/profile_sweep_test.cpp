@@ -204,7 +204,8 @@ RC_GTEST_PROP(ProfileSweep, of_a_ball_drawn_as_a_profile_is_that_of_the_ball, ()
     }
 }
 
-// A quarter circle that is hollow, about (4, 0): near it the distance is the way, at its centre less.
+// A quarter circle that is hollow, about (4, 0): near it the distance is the way, at its centre less. The
+// cutter goes on above its level end.
 TEST(ProfileSweep, of_a_hollow_arc_tells_the_way_to_its_circle) {
     Cutter c;
     c.kind = CutterKind::profile;
@@ -212,7 +213,7 @@ TEST(ProfileSweep, of_a_hollow_arc_tells_the_way_to_its_circle) {
     c.length_mm = 6;
     c.diameter_mm = 8;
     const ConvexZones zones(c);
-    for (const double angle : {0.1, 0.5, 1.0, 1.5}) {
+    for (const double angle : {0.1, 0.5, 1.0, 1.3}) {
         for (const double radius : {1.01, 1.5, 1.999999, 2.000001, 2.01}) {
             const PlanePoint at{4 - radius * std::cos(angle), radius * std::sin(angle)};
             EXPECT_NEAR(zones.distance_mm(at), 2 - radius, 1e-12) << angle << ' ' << radius;

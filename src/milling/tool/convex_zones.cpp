@@ -20,8 +20,9 @@ constexpr double kNearMm = 1e-7;
 constexpr double kTouchMm = 1e-4;
 // Up to this share of its radius from a concave arc the distance is the way to it.
 constexpr double kTrueShare = 0.5;
-// The ends of a concave arc are looked for from tangents, this far apart at most, rad.
-constexpr double kTangentStep = 0.02;
+// The ends of a concave arc are looked for from tangents, this far apart at most, rad. A zone with a level
+// end goes so little beyond it.
+constexpr double kTangentStep = 0.01;
 
 // A ray at s from 0: from + s * way, |way| = 1.
 struct Ray {
