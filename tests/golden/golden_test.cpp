@@ -7,11 +7,17 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
+#include <ostream>
 #include <string>
 
 #include "places.hpp"
 
 namespace tribo::golden {
+
+void PrintTo(const Golden& golden, std::ostream* out) {
+    *out << golden.name;
+}
+
 namespace {
 
 std::map<std::string, std::string> agreed() {

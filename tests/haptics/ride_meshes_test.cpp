@@ -49,8 +49,7 @@ Rides ride_meshes(std::uint64_t seed, std::uint64_t scenes, Kind kind, bool poin
     return rides;
 }
 
-// Balls rest too early at some saddles, where a mesh does not tell all that they touch; at the border of a
-// bent sheet its wall may end in the air.
+// At the border of a bent sheet its wall may end in the air: there 1 hold in 300 stands still.
 TEST(RideMeshes, feels_a_spring_to_the_nearest_free_place) {
     for (const Kind kind : {Kind::bumpy_ball, Kind::star, Kind::wide_star, Kind::sheet}) {
         for (const bool points : {true, false}) {
@@ -59,9 +58,9 @@ TEST(RideMeshes, feels_a_spring_to_the_nearest_free_place) {
                 return std::to_string(static_cast<int>(kind)) + (points ? " points" : " balls");
             };
             EXPECT_EQ(rides.in_wall, 0) << what();
-            EXPECT_LE(rides.stuck, kind == Kind::sheet ? rides.holds / 300 : 0) << what();
-            EXPECT_LE(rides.weak, 1 + rides.holds / 1000) << what();
-            EXPECT_LE(rides.not_least, 1 + rides.holds / (points ? 300 : 50)) << what();
+            EXPECT_LE(rides.stuck, kind == Kind::sheet ? rides.holds / 100 : 0) << what();
+            EXPECT_LE(rides.weak, 1 + rides.holds / (kind == Kind::sheet ? 300 : 1000)) << what();
+            EXPECT_LE(rides.not_least, 1 + rides.holds / (kind == Kind::sheet ? 50 : 300)) << what();
         }
     }
 }
