@@ -399,6 +399,7 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
     Place to;
     const Landing landing = land(at_, step, way, to);
     chained_mm_ = 0;
+    cramping_ = {};
     bool nearer = true;
     if (landing == Landing::over_edge && size <= kBeyond * way.rest_mm) {
         if (chain({to.proxy, clearance_mm(to.proxy, kHighest)})) return take_off();
@@ -439,8 +440,8 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
     }
     side_step_.interrupt();
     if (stride_mm_ >= skin()) return Next::more;
-    if (!nearer && is_valley(to, step)) {
-        at_.sides.put(side_of(to.normal), kApart);
+    if (nearer ? stand_beside(cramping_) : is_valley(to, step)) {
+        if (!nearer) at_.sides.put(side_of(to.normal), kApart);
         at_.normal = up_from(at_);
         stride_mm_ = kLook;
         moved_ = true;
@@ -449,6 +450,31 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
     // Where the shortest step comes no nearer, the proxy is as near as it can come.
     settled_ = braced_ = !nearer;
     return settled_ && at_.sides.count > 1 ? look_behind_sides(way) : Next::nothing;
+}
+
+// What leaves no room over the next places holds the proxy, too, where that has reached it, or has come a
+// little behind it as the anchor's tolerance lets it. Surfaces of a model that cross are no corner of its
+// distance. Whether that is near, and there is room beside it.
+bool FieldContact::stand_beside(const contact::HalfSpace& side) {
+    if (length(side.normal) == 0 || at_.sides.count == contact::HalfSpaces::kMost) return false;
+    const double behind = side.above(at_.proxy);
+    if (behind < -2 * skin() || behind > kLook) return false;
+    const Place was = at_;
+    const Anchor tied = anchor_;
+    contact::HalfSpaces corner = at_.sides;
+    for (int n = 0; n < corner.count; ++n) {
+        contact::HalfSpace& h = corner.side[static_cast<std::size_t>(n)];
+        h.offset = dot(h.normal, at_.proxy);
+    }
+    corner.put(side, kApart);
+    at_.proxy = corner.nearest(at_.proxy);
+    at_.sides.put({side.normal, 0, 0}, kApart);
+    anchor_.radius = 0;
+    if (distance(at_.proxy, was.proxy) <= kLook) renew_anchor();
+    if (anchor_.radius > kSkin) return true;
+    at_ = was;
+    anchor_ = tied;
+    return false;
 }
 
 // Whether the shortest step has led over the bottom of a valley of two sides that are nearly one.

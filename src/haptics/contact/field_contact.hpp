@@ -148,6 +148,7 @@ class FieldContact {
     bool correct(Place& place, const ProbeGap::Gap& seen) const;
     static double alike_in(const contact::HalfSpaces& corner, bool rises);
     bool is_valley(const Place& to, Vec3 step) const;
+    bool stand_beside(const contact::HalfSpace& side);
     void land_on_side(Place& to, Vec3 trial, ProbeGap::Gap seen, double size_mm);
     void stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces& others);
     bool push_out();
@@ -193,8 +194,10 @@ class FieldContact {
     int looks_ = 0, next_look_ = 0;
     Anchor anchor_;
     double chained_mm_ = 0;  // length of the last chain
-    Place at_;               // the contact, tied
-    Vec3 rested_mm_;         // the proxy when it last settled
+    // What last left no room over a place of the proxy; its normal is 0: nothing did.
+    contact::HalfSpace cramping_;
+    Place at_;        // the contact, tied
+    Vec3 rested_mm_;  // the proxy when it last settled
     // Of the last tick.
     Vec3 last_proxy_, last_probe_;
     double last_force_n_ = 0;

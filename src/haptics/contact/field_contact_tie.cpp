@@ -51,10 +51,11 @@ void FieldContact::renew_anchor() {
     }
 }
 
+// Away from all sides as fast as can be: the shortest way to 1 above each.
 Vec3 FieldContact::up_from(const Place& place) {
-    Vec3 up;
-    for (int n = 0; n < place.sides.count; ++n) up -= place.sides.side[static_cast<std::size_t>(n)].normal;
-    return normalized(up, place.normal);
+    contact::HalfSpaces above = place.sides;
+    for (int n = 0; n < above.count; ++n) above.side[static_cast<std::size_t>(n)].offset = -1;
+    return normalized(above.nearest({}), place.normal);
 }
 
 // Whether a ball, and ever smaller ones towards the proxy, reach it: between walls the first does not.
@@ -95,7 +96,12 @@ bool FieldContact::tie(const Place& to) {
         // Another side is near, one that the step has left or comes to: there is room only away from it too,
         // in a sharp groove between the two ways.
         Vec3 tilted = up;
-        if (tries == 0) tilted = normalized(up + measure(at).normal, up);
+        if (tries == 0) {
+            const ProbeGap::Gap g = measure(at);
+            tilted = normalized(up + g.normal, up);
+            if (dot(g.normal, up) < kOneSide)
+                cramping_ = {-g.normal, -dot(g.normal, at - g.gap_mm * g.normal), 0};
+        }
         if (tries == 1 && a.radius < kCramped * height) tilted = normalized(first + up, up);
         if (dot(tilted, up) < kOneSide) {
             up = tilted;
