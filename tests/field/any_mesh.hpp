@@ -76,6 +76,20 @@ inline TriangleMesh any_star(Draw& draw, bool wide_arms) {
     return mesh;
 }
 
+// Two bodies that overlap, as modellers leave them: their surfaces cross.
+inline TriangleMesh any_two_bodies(Draw& draw) {
+    TriangleMesh both = any_bumpy_ball(draw);
+    const TriangleMesh other = any_star(draw, true);
+    const double beside = draw.between(2, 8);
+    const Vec3 by = beside * draw.direction();
+    const auto first = static_cast<std::uint32_t>(both.positions.size());
+    for (std::size_t n = 0; n < other.positions.size(); ++n)
+        both.positions.push_back(to_float(other.position(static_cast<std::uint32_t>(n)) + by));
+    for (const Triangle& t : other.triangles)
+        both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return both;
+}
+
 // 16 mm wide, front up, with waves of up to 2 mm.
 inline TriangleMesh any_sheet(Draw& draw) {
     TriangleMesh mesh;

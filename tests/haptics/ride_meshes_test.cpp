@@ -14,10 +14,11 @@ using test::Rider;
 using test::Rides;
 using tribo::test::Draw;
 
-enum class Kind { bumpy_ball, star, wide_star, sheet };
+enum class Kind { bumpy_ball, star, wide_star, two_bodies, sheet };
 
 TriangleMesh any_mesh(Draw& draw, Kind kind) {
     if (kind == Kind::bumpy_ball) return field::test::any_bumpy_ball(draw);
+    if (kind == Kind::two_bodies) return field::test::any_two_bodies(draw);
     if (kind == Kind::sheet) return field::test::any_sheet(draw);
     return field::test::any_star(draw, kind == Kind::wide_star);
 }
@@ -51,7 +52,7 @@ Rides ride_meshes(std::uint64_t seed, std::uint64_t scenes, Kind kind, bool poin
 
 // At the border of a bent sheet its wall may end in the air: there 1 hold in 300 stands still.
 TEST(RideMeshes, feels_a_spring_to_the_nearest_free_place) {
-    for (const Kind kind : {Kind::bumpy_ball, Kind::star, Kind::wide_star, Kind::sheet}) {
+    for (const Kind kind : {Kind::bumpy_ball, Kind::star, Kind::wide_star, Kind::two_bodies, Kind::sheet}) {
         for (const bool points : {true, false}) {
             const Rides rides = ride_meshes(31, 30, kind, points);
             const auto what = [&] {

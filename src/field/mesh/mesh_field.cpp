@@ -2,20 +2,19 @@
 #include "field/mesh/mesh_field.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-#include "field/mesh/sheet_wall.hpp"
+#include "field/mesh/mesh_parts.hpp"
 
 namespace tribo::field {
 namespace {
 
-// Nearer to the mesh than this, the direction to it is rounding noise, mm.
-constexpr double kOnSurface = 1e-6;
-
-contact::SurfaceSample towards(Vec3 way, Vec3 otherwise) {
-    const double d = length(way);
-    return {d, d > kOnSurface ? way / d : otherwise, 0};
+// 0 inside.
+double way_to(const Box3& box, Vec3 p) {
+    const Vec3 off{std::max({box.min.x - p.x, p.x - box.max.x, 0.0}),
+                   std::max({box.min.y - p.y, p.y - box.max.y, 0.0}),
+                   std::max({box.min.z - p.z, p.z - box.max.z, 0.0})};
+    return length(off);
 }
 
 }  // namespace
@@ -25,50 +24,43 @@ Result<std::unique_ptr<MeshField>> MeshField::make(TriangleMesh mesh, double thi
     std::erase_if(mesh.triangles, is_degenerate);
     if (!(area_mm2(mesh) > 0)) return fail("the model has no surface", "check that it holds triangles");
     const MeshNormals normals(mesh);
+    std::vector<MeshBody> bodies;
+    double skin = 0;
     if (normals.turned_edges() > 0) {
         const Box3 box = bounds(mesh);
-        const double skin = std::min(thickness_mm, kSkinOfDiagonal * distance(box.min, box.max));
-        return std::unique_ptr<MeshField>(new MeshField(std::move(mesh), 0, skin));
+        skin = std::min(thickness_mm, kSkinOfDiagonal * distance(box.min, box.max));
+        bodies.emplace_back(std::move(mesh), 0, skin);
+    } else {
+        if (normals.border_edges() == 0 && volume_mm3(mesh) < 0) {
+            for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+        }
+        for (MeshPart& part : parts_of(std::move(mesh), thickness_mm))
+            bodies.emplace_back(std::move(part.mesh), part.is_closed ? 0 : thickness_mm, 0);
     }
-    const bool closed = normals.border_edges() == 0;
-    if (closed && volume_mm3(mesh) < 0) {
-        for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-    }
-    return std::unique_ptr<MeshField>(new MeshField(std::move(mesh), closed ? 0 : thickness_mm, 0));
-}
-
-MeshField::MeshField(TriangleMesh mesh, double thickness_mm, double skin_mm)
-    : distance_(std::move(mesh)), thickness_(thickness_mm), skin_(skin_mm) {
-    if (!is_sheet()) return;
-    SheetWall wall = wall_of_sheet(distance_.mesh(), distance_.normals(), thickness_);
-    off_ = std::move(wall.off);
-    wall_tree_.emplace(wall.mesh);
+    return std::unique_ptr<MeshField>(new MeshField(std::move(bodies), skin));
 }
 
 contact::SurfaceSample MeshField::sample(Vec3 p) const {
-    const MeshPoint at = distance_.closest(p);
-    const Vec3 way = p - at.point_mm;
-    const double s = at.distance_mm;
-    if (skin_ > 0) {
-        contact::SurfaceSample skin = towards(way, at.normal);
-        skin.distance_mm -= 0.5 * skin_;
-        return skin;
+    contact::SurfaceSample nearest = bodies_[0].sample(p);
+    for (std::size_t n = 1; n < bodies_.size(); ++n) {
+        const double way = way_to(bodies_[n].box_mm(), p);
+        if (way > 0 && way >= nearest.distance_mm) continue;
+        contact::SurfaceSample one = bodies_[n].sample(p);
+        if (one.distance_mm >= nearest.distance_mm) continue;
+        one.piece = static_cast<std::uint32_t>(n);
+        nearest = one;
     }
-    const auto to_wall = [&] {
-        const MeshTree::Nearest nearest = wall_tree_->nearest(p);
-        return std::pair(p - nearest.at.point_mm, off_[nearest.triangle]);
-    };
-    if (at.on_border && is_sheet()) {
-        const auto [beyond, off] = to_wall();
-        return towards(beyond, off);
-    }
-    const Vec3 front = std::abs(s) > kOnSurface ? way / s : at.normal;
-    if (!is_sheet() || s >= 0) return {s, front, 0};
-    const auto [beyond, off] = to_wall();
-    const double back = -s - thickness_, end = length(beyond);
-    if (back > 0) return end < back ? towards(beyond, off) : contact::SurfaceSample{back, -front, 0};
-    if (-end > std::max(s, back)) return {-end, end > kOnSurface ? -beyond / end : off, 0};
-    return back > s ? contact::SurfaceSample{back, -front, 0} : contact::SurfaceSample{s, front, 0};
+    return nearest;
+}
+
+Box3 MeshField::bounds_mm() const {
+    Box3 box = bodies_[0].bounds_mm();
+    for (const MeshBody& body : bodies_) box.include(body.bounds_mm());
+    return box;
+}
+
+bool MeshField::is_sheet() const {
+    return std::ranges::any_of(bodies_, &MeshBody::is_sheet);
 }
 
 }  // namespace tribo::field

@@ -103,7 +103,7 @@ ProbeContact FieldContact::tick(Vec3 probe, double turned_mm) noexcept {
         last_probe_ = probe;
         last_force_n_ = 0;
     }
-    const bool turned = turned_mm > 0;
+    const bool turned = turned_mm > 0, stood = !settled_ && at_.proxy == last_proxy_;
     last_proxy_ = at_.proxy;
     settled_ = braced_ = moved_ = looked_ = false;
     side_step_.interrupt();
@@ -114,6 +114,7 @@ ProbeContact FieldContact::tick(Vec3 probe, double turned_mm) noexcept {
     if (turned && phase_ == Phase::touching) (void)push_out();
     // The anchor of a ball that slides has no room of its own.
     if (phase_ == Phase::touching && (turned || gap_.radius_mm() == 0)) renew_anchor();
+    if (phase_ == Phase::touching && gap_.radius_mm() == 0 && stood) fetch_anchor();
     for (Next next = Next::more; next == Next::more && budget(kStepQueries);) {
         switch (phase_) {
             case Phase::begin:
@@ -379,13 +380,21 @@ FieldContact::Next FieldContact::look_behind_sides(const Split& way) {
     // So deep behind them that is.
     double behind = 0;
     for (int n = 0; n < count; ++n) behind = std::max(behind, dot(along, out[static_cast<std::size_t>(n)]));
-    if (behind < kLeastBehind || measure(at_.proxy + kLook * along).gap_mm < -kOff * kLook * behind)
-        return Next::nothing;
+    if (behind < kLeastBehind) return Next::nothing;
+    Anchor there{at_.proxy + kLook * along};
+    there.radius = measure(there.at).gap_mm;
+    if (there.radius < -kOff * kLook * behind) return Next::nothing;
     sides = others;
     at_.normal = up_from(at_);
     // A flight from farther away might come back to here.
     const Vec3 to_probe = way.rest + way.press;
-    if (gap_.radius_mm() > 0 && others.nearest(to_probe) == to_probe) anchor_ = {at_.proxy, 0};
+    if (others.nearest(to_probe) == to_probe) {
+        if (gap_.radius_mm() > 0) {
+            anchor_ = {at_.proxy, 0};
+        } else if (there.radius > kSkin && reaches_down(there, at_.proxy, skin())) {
+            anchor_ = there;
+        }
+    }
     settled_ = false;
     moved_ = true;
     // A longer step would see it again from too far.
@@ -452,11 +461,12 @@ FieldContact::Next FieldContact::take_step(Vec3 probe, const Split& way) {
     return settled_ && at_.sides.count > 1 ? look_behind_sides(way) : Next::nothing;
 }
 
-// What leaves no room over the next places holds the proxy, too, where that has reached it, or has come a
-// little behind it as the anchor's tolerance lets it. Surfaces of a model that cross are no corner of its
+// What leaves no room over the next places holds a point, too, where that has reached it, or has come a
+// little behind it as the anchor's tolerance lets it. Surfaces of one body that cross are no corner of its
 // distance. Whether that is near, and there is room beside it.
 bool FieldContact::stand_beside(const contact::HalfSpace& side) {
-    if (length(side.normal) == 0 || at_.sides.count == contact::HalfSpaces::kMost) return false;
+    if (gap_.radius_mm() > 0 || length(side.normal) == 0 || at_.sides.count == contact::HalfSpaces::kMost)
+        return false;
     const double behind = side.above(at_.proxy);
     if (behind < -2 * skin() || behind > kLook) return false;
     const Place was = at_;

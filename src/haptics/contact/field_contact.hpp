@@ -153,6 +153,7 @@ class FieldContact {
     void stand_on(const ProbeGap::Gap& seen, const contact::HalfSpaces& others);
     bool push_out();
     void renew_anchor();
+    void fetch_anchor();
     static Vec3 up_from(const Place& place);
     bool tie(const Place& to);
     bool chain(const Anchor& to);

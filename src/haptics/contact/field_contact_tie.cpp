@@ -13,6 +13,8 @@ constexpr double kTouches = 0.01;
 constexpr double kStepsHigh = 2;
 // Where there is room for less than this share of its height another way leads up.
 constexpr double kCramped = 0.25;
+// An anchor so many times its radius away from the proxy is of no use any more.
+constexpr double kLeftBehind = 10;
 
 }  // namespace
 
@@ -49,6 +51,16 @@ void FieldContact::renew_anchor() {
         const Anchor a{at, clearance_mm(at, height, true)};
         if (a.radius > kSkin && reaches_down(a, at_.proxy, std::max(kTouches * height, skin()))) anchor_ = a;
     }
+}
+
+// An anchor that was left far behind in a dead end, from which no chain leads on, is replaced by one over the
+// proxy: that was tied when it came here.
+void FieldContact::fetch_anchor() {
+    if (distance(anchor_.at, at_.proxy) <= kLeftBehind * anchor_.radius) return;
+    const Anchor left = anchor_;
+    anchor_ = {at_.proxy, 0};
+    renew_anchor();
+    if (anchor_.radius <= kSkin) anchor_ = left;
 }
 
 // Away from all sides as fast as can be: the shortest way to 1 above each.

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// A mesh of several bodies, taken apart where they may cross.
+#pragma once
+
+#include <vector>
+
+#include "base/mesh.hpp"
+
+namespace tribo::field {
+
+struct MeshPart {
+    TriangleMesh mesh;
+    bool is_closed = true;
+};
+
+// Sorts the connected components of a mesh into parts, so that within a part no boxes of components overlap,
+// nor come as near as the thickness of a sheet. Closed and open components are in parts of their own. A
+// hollow (a closed component that is inside out) stays with the smallest closed component around its box;
+// without one it is turned.
+//
+// Of a mesh of more than kMostComponents, or where more than kMostParts overlap at one place, what is left
+// over comes into one part.
+std::vector<MeshPart> parts_of(TriangleMesh mesh, double thickness_mm);
+inline constexpr std::size_t kMostComponents = 4096, kMostParts = 16;
+
+}  // namespace tribo::field
