@@ -117,6 +117,17 @@ TEST(MeshParts, of_random_bodies_agree_with_the_winding_number_and_have_no_steps
     }
 }
 
+TEST(MeshParts, leave_out_what_has_no_area) {
+    TriangleMesh mesh = box_mesh({{-2, -2, -2}, {2, 2, 2}}), flat;
+    flat.positions = {{0, 0, 3}, {1, 0, 3}, {2, 0, 3}};
+    flat.triangles = {{0, 1, 2}};
+    add(mesh, flat);
+    const auto field = MeshField::make(mesh);
+    ASSERT_TRUE(field);
+    EXPECT_FALSE((*field)->is_sheet());
+    EXPECT_EQ((*field)->distance_mm({0, 0, 3}), 1);
+}
+
 TEST(MeshParts, of_a_soup_beyond_all_limits_are_few) {
     TriangleMesh tower, many;
     for (int n = 0; n < 40; ++n) add(tower, box_mesh({{-1.0 - n, -1, -1}, {1.0 + n, 1, 1 + 0.1 * n}}));

@@ -62,6 +62,7 @@ std::vector<Component> take_apart(const TriangleMesh& mesh, const std::vector<st
         }
         own.triangles.push_back(as);
     }
+    std::erase_if(all, [](const Component& one) { return !(area_mm2(one.mesh) > 0); });
     for (Component& one : all) {
         one.box = bounds(one.mesh);
         one.is_closed = tribo::is_closed(one.mesh);

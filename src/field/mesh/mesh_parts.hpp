@@ -16,7 +16,7 @@ struct MeshPart {
 // Sorts the connected components of a mesh into parts, so that within a part no boxes of components overlap,
 // nor come as near as the thickness of a sheet. Closed and open components are in parts of their own. A
 // hollow (a closed component that is inside out) stays with the smallest closed component around its box;
-// without one it is turned.
+// without one it is turned. Components without an area are left out.
 //
 // Of a mesh of more than kMostComponents, or where more than kMostParts overlap at one place, what is left
 // over comes into one part.
