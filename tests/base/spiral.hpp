@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "base/math.hpp"
 #include "base/vec3.hpp"
 
 namespace tribo::test {
@@ -12,7 +13,7 @@ namespace tribo::test {
 inline Vec3 spiral_direction(int n, int count, double top = 1) {
     const double z = -1 + (1 + top) * (n + 0.5) / count, turn = 2.39996322972865332 * n,
                  flat = std::sqrt(1 - z * z);
-    return {flat * std::cos(turn), flat * std::sin(turn), z};
+    return {flat * math::cos(turn), flat * math::sin(turn), z};
 }
 
 }  // namespace tribo::test

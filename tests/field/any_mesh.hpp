@@ -8,6 +8,7 @@
 #include "base/draw.hpp"
 #include "base/math.hpp"
 #include "base/mesh.hpp"
+#include "field/mesh/mesh_parts.hpp"
 
 namespace tribo::field::test {
 
@@ -29,9 +30,9 @@ inline TriangleMesh any_bumpy_ball(Draw& draw) {
         for (int i = 0; i < around; ++i) {
             const double u = math::kTwoPi * i / around, v = 0.5 * math::kTwoPi * j / down;
             const double r =
-                radius * (1 + bump * std::sin(u_waves * u) * std::sin(v_waves * v) * std::sin(v));
+                radius * (1 + bump * math::sin(u_waves * u) * math::sin(v_waves * v) * math::sin(v));
             mesh.positions.push_back(
-                to_float(r * Vec3{std::sin(v) * std::cos(u), std::sin(v) * std::sin(u), std::cos(v)}));
+                to_float(r * Vec3{math::sin(v) * math::cos(u), math::sin(v) * math::sin(u), math::cos(v)}));
         }
     }
     mesh.positions.push_back(to_float({0, 0, -radius}));
@@ -61,7 +62,7 @@ inline TriangleMesh any_star(Draw& draw, bool wide_arms) {
         for (int i = 0; i < corners; ++i) {
             const double u = math::kTwoPi * (i + (i % 2 == 0 ? -lean : lean)) / corners,
                          r = i % 2 == 0 ? radius : inner * radius;
-            mesh.positions.push_back(to_float({r * std::cos(u), r * std::sin(u), z}));
+            mesh.positions.push_back(to_float({r * math::cos(u), r * math::sin(u), z}));
         }
     }
     const auto top = static_cast<std::uint32_t>(corners + 1);
@@ -79,14 +80,11 @@ inline TriangleMesh any_star(Draw& draw, bool wide_arms) {
 // Two bodies that overlap, as modellers leave them: their surfaces cross.
 inline TriangleMesh any_two_bodies(Draw& draw) {
     TriangleMesh both = any_bumpy_ball(draw);
-    const TriangleMesh other = any_star(draw, true);
+    TriangleMesh other = any_star(draw, true);
     const double beside = draw.between(2, 8);
     const Vec3 by = beside * draw.direction();
-    const auto first = static_cast<std::uint32_t>(both.positions.size());
-    for (std::size_t n = 0; n < other.positions.size(); ++n)
-        both.positions.push_back(to_float(other.position(static_cast<std::uint32_t>(n)) + by));
-    for (const Triangle& t : other.triangles)
-        both.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    for (Point3f& p : other.positions) p = to_float(to_double(p) + by);
+    append(both, other);
     return both;
 }
 
@@ -99,7 +97,7 @@ inline TriangleMesh any_sheet(Draw& draw) {
         for (int i = 0; i <= cells; ++i) {
             const double x = -8 + 16.0 * i / cells, y = -8 + 16.0 * j / cells;
             mesh.positions.push_back(
-                to_float({x, y, wave * std::sin(rate * x + phase) * std::cos(0.7 * rate * y)}));
+                to_float({x, y, wave * math::sin(rate * x + phase) * math::cos(0.7 * rate * y)}));
         }
     }
     const auto at = [&](int i, int j) { return static_cast<std::uint32_t>(j * (cells + 1) + i); };

@@ -18,13 +18,6 @@ namespace {
 using test::box_mesh;
 using tribo::test::Draw;
 
-void add(TriangleMesh& to, const TriangleMesh& more) {
-    const auto first = static_cast<std::uint32_t>(to.positions.size());
-    to.positions.insert(to.positions.end(), more.positions.begin(), more.positions.end());
-    for (const Triangle& t : more.triangles)
-        to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
 TriangleMesh turned(TriangleMesh mesh) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     return mesh;
@@ -45,7 +38,7 @@ Vec3 any_place(Draw& draw, double half) {
 TEST(MeshParts, of_boxes_that_overlap_are_their_union) {
     const Box3 a{{-3, -3, -3}, {3, 3, 3}}, b{{-1, -1, -6}, {1, 5, 6}}, away{{20, 0, 0}, {22, 2, 2}};
     TriangleMesh mesh;
-    for (const Box3& box : {a, b, away}) add(mesh, box_mesh(box));
+    for (const Box3& box : {a, b, away}) append(mesh, box_mesh(box));
     EXPECT_EQ(parts_of(mesh, 1).size(), 2);
     const auto field = MeshField::make(mesh);
     ASSERT_TRUE(field);
@@ -63,9 +56,9 @@ TEST(MeshParts, keep_a_hollow_and_what_is_in_it) {
     const Box3 block{{-6, -6, -6}, {6, 6, 6}}, hollow{{-4, -4, -4}, {4, 4, 4}},
         inside{{-1, -1, -1}, {1, 1, 1}}, beside{{10, -2, -2}, {14, 2, 2}};
     TriangleMesh mesh = turned(box_mesh(hollow));
-    add(mesh, box_mesh(inside));
-    add(mesh, turned(box_mesh(beside)));
-    add(mesh, box_mesh(block));
+    append(mesh, box_mesh(inside));
+    append(mesh, turned(box_mesh(beside)));
+    append(mesh, box_mesh(block));
     const auto field = MeshField::make(mesh);
     ASSERT_TRUE(field);
     Draw draw(2, 0);
@@ -82,7 +75,7 @@ TEST(MeshParts, mix_a_solid_and_a_sheet) {
     const Box3 block{{-2, -2, -2}, {2, 2, 2}};
     TriangleMesh mesh = box_mesh(block);
     Draw draw(3, 0);
-    add(mesh, test::any_sheet(draw));
+    append(mesh, test::any_sheet(draw));
     const auto field = MeshField::make(mesh, 0.5);
     ASSERT_TRUE(field);
     EXPECT_TRUE((*field)->is_sheet());
@@ -121,7 +114,7 @@ TEST(MeshParts, leave_out_what_has_no_area) {
     TriangleMesh mesh = box_mesh({{-2, -2, -2}, {2, 2, 2}}), flat;
     flat.positions = {{0, 0, 3}, {1, 0, 3}, {2, 0, 3}};
     flat.triangles = {{0, 1, 2}};
-    add(mesh, flat);
+    append(mesh, flat);
     const auto field = MeshField::make(mesh);
     ASSERT_TRUE(field);
     EXPECT_FALSE((*field)->is_sheet());
@@ -130,9 +123,9 @@ TEST(MeshParts, leave_out_what_has_no_area) {
 
 TEST(MeshParts, of_a_soup_beyond_all_limits_are_few) {
     TriangleMesh tower, many;
-    for (int n = 0; n < 40; ++n) add(tower, box_mesh({{-1.0 - n, -1, -1}, {1.0 + n, 1, 1 + 0.1 * n}}));
+    for (int n = 0; n < 40; ++n) append(tower, box_mesh({{-1.0 - n, -1, -1}, {1.0 + n, 1, 1 + 0.1 * n}}));
     EXPECT_EQ(parts_of(tower, 1).size(), kMostParts);
-    for (int n = 0; n < 5000; ++n) add(many, box_mesh({{3.0 * n, 0, 0}, {3.0 * n + 1, 1, 1}}));
+    for (int n = 0; n < 5000; ++n) append(many, box_mesh({{3.0 * n, 0, 0}, {3.0 * n + 1, 1, 1}}));
     EXPECT_EQ(parts_of(many, 1).size(), 1);
 }
 

@@ -59,9 +59,10 @@ TEST(RideMeshes, feels_a_spring_to_the_nearest_free_place) {
                 return std::to_string(static_cast<int>(kind)) + (points ? " points" : " balls");
             };
             EXPECT_EQ(rides.in_wall, 0) << what();
-            EXPECT_LE(rides.stuck, kind == Kind::sheet ? rides.holds / 100 : 0) << what();
-            EXPECT_LE(rides.weak, 1 + rides.holds / (kind == Kind::sheet ? 300 : 1000)) << what();
-            EXPECT_LE(rides.not_least, 1 + rides.holds / (kind == Kind::sheet ? 50 : 300)) << what();
+            EXPECT_LE(rides.stuck, kind == Kind::sheet ? rides.holds / 300 : 0) << what();
+            EXPECT_LE(rides.weak, 1 + rides.holds / 1000) << what();
+            EXPECT_LE(rides.not_least, 1 + rides.holds / (kind == Kind::sheet && !points ? 50 : 300))
+                << what();
         }
     }
 }

@@ -35,10 +35,7 @@ class ShapeRider {
         update(at, stylus);
     }
     void go(Vec3 to, Vec3 stylus, double mm_per_s) {
-        // No wrist turns faster.
-        constexpr double kTurn = 20;  // rad/s
-        const double seconds = std::max(distance(at_, to) / mm_per_s, distance(stylus_, stylus) / kTurn);
-        const int ticks = std::max(1, static_cast<int>(std::ceil(seconds * hz_)));
+        const int ticks = std::max(1, static_cast<int>(std::ceil(distance(at_, to) / mm_per_s * hz_)));
         for (int n = 1; n <= ticks; ++n) {
             const double share = static_cast<double>(n) / ticks;
             update(lerp(at_, to, share), normalized(lerp(stylus_, stylus, share)));

@@ -71,13 +71,6 @@ std::vector<Component> take_apart(const TriangleMesh& mesh, const std::vector<st
     return all;
 }
 
-void append(TriangleMesh& to, const TriangleMesh& more) {
-    const auto first = static_cast<std::uint32_t>(to.positions.size());
-    to.positions.insert(to.positions.end(), more.positions.begin(), more.positions.end());
-    for (const Triangle& t : more.triangles)
-        to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
-}
-
 double volume_of(const Box3& box) {
     const Vec3 size = box.max - box.min;
     return size.x * size.y * size.z;
@@ -105,6 +98,13 @@ void place_hollows(std::vector<Component>& all) {
 }
 
 }  // namespace
+
+void append(TriangleMesh& to, const TriangleMesh& more) {
+    const auto first = static_cast<std::uint32_t>(to.positions.size());
+    to.positions.insert(to.positions.end(), more.positions.begin(), more.positions.end());
+    for (const Triangle& t : more.triangles)
+        to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
 
 std::vector<MeshPart> parts_of(TriangleMesh mesh, double thickness_mm) {
     std::size_t count = 0;

@@ -23,4 +23,7 @@ struct MeshPart {
 std::vector<MeshPart> parts_of(TriangleMesh mesh, double thickness_mm);
 inline constexpr std::size_t kMostComponents = 4096, kMostParts = 16;
 
+// Adds the triangles of another mesh, which is not connected to the first.
+void append(TriangleMesh& to, const TriangleMesh& more);
+
 }  // namespace tribo::field

@@ -49,6 +49,15 @@ contact::HalfSpace side_of(Vec3 normal) {
     return {-normal, 0, 0};
 }
 
+// The sides of a place as planes through its proxy.
+contact::HalfSpaces planes_of(contact::HalfSpaces sides, Vec3 proxy) {
+    for (int n = 0; n < sides.count; ++n) {
+        contact::HalfSpace& h = sides.side[static_cast<std::size_t>(n)];
+        h.offset = dot(h.normal, proxy);
+    }
+    return sides;
+}
+
 // Which sides of a corner to look behind together, one bit each: each alone, and of three or four all but
 // one, and all pairs.
 std::span<const std::uint8_t> looks_in_corner_of(int sides) {
@@ -206,11 +215,7 @@ bool FieldContact::correct(Place& place, const ProbeGap::Gap& seen) const {
         place.proxy = landed;
         place.sides = {};
     } else {
-        contact::HalfSpaces corner = place.sides;
-        for (int i = 0; i < corner.count; ++i) {
-            contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
-            h.offset = dot(h.normal, place.proxy);
-        }
+        contact::HalfSpaces corner = planes_of(place.sides, place.proxy);
         corner.put({-seen.normal, -dot(seen.normal, landed), 0}, alike);
         place.proxy = corner.nearest(place.proxy);
     }
@@ -276,11 +281,7 @@ FieldContact::Landing FieldContact::land(const Place& from, Vec3 step, const Spl
     const double alike_side = alike_in(from.sides, side.above(from.proxy) < -kLeft * size);
     if (g.gap_mm < -kSkin || alone) {
         // Another side is in the way, or just reached: the proxy stands where all of them meet.
-        contact::HalfSpaces corner = from.sides;
-        for (int i = 0; i < corner.count; ++i) {
-            contact::HalfSpace& h = corner.side[static_cast<std::size_t>(i)];
-            h.offset = dot(h.normal, from.proxy);
-        }
+        contact::HalfSpaces corner = planes_of(from.sides, from.proxy);
         corner.put(side, alike_side);
         const Vec3 straight = from.proxy + (size / way.rest_mm) * way.rest;
         to.proxy = corner.nearest(straight);
@@ -471,11 +472,7 @@ bool FieldContact::stand_beside(const contact::HalfSpace& side) {
     if (behind < -2 * skin() || behind > kLook) return false;
     const Place was = at_;
     const Anchor tied = anchor_;
-    contact::HalfSpaces corner = at_.sides;
-    for (int n = 0; n < corner.count; ++n) {
-        contact::HalfSpace& h = corner.side[static_cast<std::size_t>(n)];
-        h.offset = dot(h.normal, at_.proxy);
-    }
+    contact::HalfSpaces corner = planes_of(at_.sides, at_.proxy);
     corner.put(side, kApart);
     at_.proxy = corner.nearest(at_.proxy);
     at_.sides.put({side.normal, 0, 0}, kApart);
