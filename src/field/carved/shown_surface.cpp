@@ -180,20 +180,29 @@ template <class IsEnough>
 bool ShownSurface::visit_nearer(const ShownPlace& from, IsEnough&& is_enough) const {
     if (from.node[0] < 0) return false;
     const Vec3 way = along_surface(from.place);
+    const auto visit = [&](int a, int b, int c) {
+        if (a * way.x + b * way.y + c * way.z <= 0) return false;
+        ShownPlace to;
+        if (!see(from.brick, from.node[0] + a, from.node[1] + b, from.node[2] + c, to)) return false;
+        if (to.way_mm >= from.way_mm || dot(to.place.normal, from.place.normal) < kGoesOn) return false;
+        const Vec3 step = to.place.at - from.place.at;
+        if (dot(step, way) <= 0) return false;
+        // What a node shows in the air before a corner has no slope of its own.
+        const Vec3 ahead = normalized(step, Vec3{});
+        double fall_mm = dot(ahead, along_surface(to.place));
+        if (to.place.corner) fall_mm = std::max(fall_mm, dot(ahead, way));
+        return fall_mm > 0 && is_enough(to.place, step, fall_mm);
+    };
+    // Straight ahead first: that is enough most often.
+    const double most = std::max({std::abs(way.x), std::abs(way.y), std::abs(way.z)});
+    const auto along = [most](double part) { return part > 0.5 * most ? 1 : part < -0.5 * most ? -1 : 0; };
+    const int first[] = {along(way.x), along(way.y), along(way.z)};
+    if (visit(first[0], first[1], first[2])) return true;
     for (int c = -1; c <= 1; ++c) {
         for (int b = -1; b <= 1; ++b) {
             for (int a = -1; a <= 1; ++a) {
-                if (a * way.x + b * way.y + c * way.z <= 0) continue;
-                ShownPlace to;
-                if (!see(from.brick, from.node[0] + a, from.node[1] + b, from.node[2] + c, to)) continue;
-                if (to.way_mm >= from.way_mm || dot(to.place.normal, from.place.normal) < kGoesOn) continue;
-                const Vec3 step = to.place.at - from.place.at;
-                if (dot(step, way) <= 0) continue;
-                // What a node shows in the air before a corner has no slope of its own.
-                const Vec3 ahead = normalized(step, Vec3{});
-                double fall_mm = dot(ahead, along_surface(to.place));
-                if (to.place.corner) fall_mm = std::max(fall_mm, dot(ahead, way));
-                if (fall_mm > 0 && is_enough(to.place, step, fall_mm)) return true;
+                const bool again = a == first[0] && b == first[1] && c == first[2];
+                if (!again && visit(a, b, c)) return true;
             }
         }
     }
@@ -217,11 +226,11 @@ bool ShownSurface::comes_nearer(const ShownPlace& from) const {
            !(no_gaps_ && visit_nearer(from, is_gap));
 }
 
-double ShownSurface::steepest_fall_mm(const ShownPlace& from) const {
+double ShownSurface::steepest_fall_mm(const ShownPlace& from, double enough_mm) const {
     double most = 0;
     visit_nearer(from, [&](const SeenPlace&, Vec3, double fall_mm) {
         most = std::max(most, fall_mm);
-        return false;
+        return most >= enough_mm;
     });
     return most;
 }
@@ -302,7 +311,7 @@ double ShownSurface::settled_mm(double most_mm, double nearest_mm, std::span<con
             else
                 way_mm = std::max(way_mm, std::min(place.lasts_mm, along_mm));
         }
-        if (way_mm < settled) way_mm = std::max(way_mm, steepest_fall_mm(one));
+        if (way_mm < settled) way_mm = std::max(way_mm, steepest_fall_mm(one, settled));
         settled = std::min(settled, way_mm);
         if (settled < kTooLittle * field_->cell_mm) return 0;
     }

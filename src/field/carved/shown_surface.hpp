@@ -75,7 +75,7 @@ class ShownSurface {
     bool comes_nearer(const ShownPlace& from) const;
     double around_cells() const;
     std::optional<double> side_mm(const SeenPlace& place, double least_mm, double most_mm) const;
-    double steepest_fall_mm(const ShownPlace& from) const;
+    double steepest_fall_mm(const ShownPlace& from, double enough_mm) const;
 
     const FieldQuery* field_;
     contact::SearchMemory* memory_;
