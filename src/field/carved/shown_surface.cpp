@@ -213,17 +213,16 @@ bool ShownSurface::visit_nearer(const ShownPlace& from, IsEnough&& is_enough) co
 // That place leads where this one does. Beside a gap a search goes on into that: it has an end of its own.
 bool ShownSurface::comes_nearer(const ShownPlace& from) const {
     const SeenPlace& here = from.place;
-    const auto is_of_same = [&](const SeenPlace& there, Vec3, double) { return there.shape == here.shape; };
-    // Another shape goes on where this one ends, if there is no edge between them.
-    const auto is_of_next = [&](const SeenPlace& there, Vec3 step, double) {
+    const auto goes_on = [&](const SeenPlace& there, Vec3 step, double) {
+        if (there.shape == here.shape) return true;
+        // Another shape goes on where this one ends, if there is no edge between them.
         const double most = kNoEdge * length(step);
         const auto parts = [&](Vec3 turn) { return dot(step, turn) > most; };
-        return there.shape != here.shape && !parts(there.normal - here.normal) &&
+        return !here.corner && !parts(there.normal - here.normal) &&
                !parts(field_->outward(there.shape, there.at) - field_->outward(here.shape, here.at));
     };
     const auto is_gap = [&](const SeenPlace& there, Vec3, double) { return is_left_out(there); };
-    return (visit_nearer(from, is_of_same) || (!here.corner && visit_nearer(from, is_of_next))) &&
-           !(no_gaps_ && visit_nearer(from, is_gap));
+    return visit_nearer(from, goes_on) && !(no_gaps_ && visit_nearer(from, is_gap));
 }
 
 double ShownSurface::steepest_fall_mm(const ShownPlace& from, double enough_mm) const {
