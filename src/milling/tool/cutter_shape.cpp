@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/math.hpp"
+#include "base/text/decimal.hpp"
 #include "base/text/limit_text.hpp"
 #include "milling/tool/convex_zones.hpp"
 #include "milling/tool/turned_profile.hpp"
@@ -16,6 +17,8 @@ namespace {
 const double kUsualLengthMm = Cutter().length_mm;
 // A normal may hang back, or a height fall, by this much: it is rounding of a drawing.
 constexpr double kSlack = 1e-6;
+// Of a length that follows from others, in a message.
+constexpr int kShownDigits = 6;
 
 std::unexpected<Error> refuse_shape(std::string_view key, const std::string& cause,
                                     const std::string& remedy) {
@@ -61,22 +64,24 @@ Result<void> make_cone(Cutter& c, double angle_rad) {
         const double centre = c.radius_mm() - corner * normal.r - (length - corner * (1 + normal.z)) * slope;
         if (!(centre >= 0))
             return refuse_shape("taper_deg",
-                                "is too steep: " + plain_number(length) + " mm below its diameter of " +
-                                    plain_number(c.diameter_mm) + " mm nothing is left of the tip",
+                                "is too steep: " + format_digits(length, kShownDigits) +
+                                    " mm below its diameter of " + plain_number(c.diameter_mm) +
+                                    " mm nothing is left of the tip",
                                 "give tip_mm, the diameter of the tip, or a shorter length_mm");
         c.tip_mm = 2 * (centre + corner);
     }
     if (c.tip_mm == 0) c.tip_mm = 2 * corner;
     const double centre = 0.5 * c.tip_mm - corner;
     if (!(centre >= 0))
-        return refuse_shape("corner_mm",
-                            "is larger than half of the tip of " + plain_number(c.tip_mm) + " mm",
-                            "half of tip_mm makes a ball");
+        return refuse_shape(
+            "corner_mm", "is larger than half of the tip of " + format_digits(c.tip_mm, kShownDigits) + " mm",
+            "half of tip_mm makes a ball");
     const PlanePoint cone{centre + corner * normal.r, corner * (1 + normal.z)};
     if (!(c.tip_mm < c.diameter_mm && cone.r < c.radius_mm()))
         return refuse_shape("tip_mm",
-                            "of " + plain_number(c.tip_mm) + " mm leaves no cone below a diameter of " +
-                                plain_number(c.diameter_mm) + " mm",
+                            "of " + format_digits(c.tip_mm, kShownDigits) +
+                                " mm leaves no cone below a diameter of " + plain_number(c.diameter_mm) +
+                                " mm",
                             "diameter_mm is the largest diameter that cuts, tip_mm that of the tip");
     add(c, {centre, 0}, corner > 0 ? bulge_between(kDown, normal) : 0);
     if (corner > 0) add(c, cone);
@@ -85,7 +90,7 @@ Result<void> make_cone(Cutter& c, double angle_rad) {
     if (top > c.length_mm * (1 + kSlack))
         return refuse_shape("length_mm",
                             "ends below the diameter: the cone is " + plain_number(c.diameter_mm) +
-                                " mm wide only " + plain_number(top) + " mm above the tip",
+                                " mm wide only " + format_digits(top, kShownDigits) + " mm above the tip",
                             "give length_mm of the whole edge, or the diameter_mm that it really ends with");
     add(c, {c.radius_mm(), std::min(top, c.length_mm)});
     return {};
@@ -102,10 +107,10 @@ Result<void> make_dovetail(Cutter& c) {
     const PlanePoint cone{centre + corner * normal.r, corner * (1 + normal.z)};
     const double top = cone.r - (c.height_mm - cone.z) * normal.z / normal.r;
     if (!(c.height_mm > cone.z && top > 0))
-        return refuse_shape(
-            "height_mm",
-            "does not fit the angle: the side would end at a radius of " + plain_number(top) + " mm",
-            "a dovetail narrows to its neck: give a lower height_mm or a smaller taper_deg");
+        return refuse_shape("height_mm",
+                            "does not fit the angle: the side would end at a radius of " +
+                                format_digits(top, kShownDigits) + " mm",
+                            "a dovetail narrows to its neck: give a lower height_mm or a smaller taper_deg");
     add(c, {centre, 0}, corner > 0 ? bulge_between(kDown, normal) : 0);
     if (corner > 0) add(c, cone);
     add(c, {top, c.height_mm});
