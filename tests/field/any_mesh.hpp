@@ -49,6 +49,67 @@ inline TriangleMesh any_bumpy_ball(Draw& draw) {
     return mesh;
 }
 
+// The same with each of its corners moved: folded, and through itself.
+inline TriangleMesh any_crumpled_ball(Draw& draw) {
+    TriangleMesh mesh = any_bumpy_ball(draw);
+    const double most = draw.between(0.2, 2.5);
+    for (Point3f& p : mesh.positions) {
+        const double way = draw.between(0, most);
+        p = to_float(to_double(p) + way * draw.direction());
+    }
+    return mesh;
+}
+
+// About the origin, up to 15 mm wide: a tube round a closed curve that mostly passes through itself.
+inline TriangleMesh any_tube(Draw& draw) {
+    constexpr int kAlong = 60, kWaves = 3;
+    TriangleMesh mesh;
+    const int around = static_cast<int>(draw.between(5, 14));
+    const double radius = draw.between(0.8, 2.5);
+    Vec3 cosines[kWaves], sines[kWaves];
+    for (int k = 0; k < kWaves; ++k) {
+        const double most = 5.0 / (k + 1);
+        cosines[k] = draw.aside(most, -most, most);
+        sines[k] = draw.aside(most, -most, most);
+    }
+    const auto place = [&](double t) {
+        Vec3 p;
+        for (int k = 0; k < kWaves; ++k)
+            p += math::cos((k + 1) * t) * cosines[k] + math::sin((k + 1) * t) * sines[k];
+        return p;
+    };
+    // The first ring's directions, carried along; the last ring meets it where they are alike.
+    struct Ring {
+        Vec3 u, v;
+        Vec3 at(double angle) const { return math::cos(angle) * u + math::sin(angle) * v; }
+    };
+    Ring first, ring{{1, 0, 0}, {}};
+    for (int n = 0; n < kAlong; ++n) {
+        const double t = math::kTwoPi * n / kAlong;
+        const Vec3 along = normalized(place(t + 1e-4) - place(t));
+        ring.u = normalized(ring.u - dot(ring.u, along) * along, any_perpendicular(along));
+        ring.v = cross(along, ring.u);
+        if (n == 0) first = ring;
+        for (int m = 0; m < around; ++m)
+            mesh.positions.push_back(to_float(place(t) + radius * ring.at(math::kTwoPi * m / around)));
+    }
+    int shift = 0;
+    for (int m = 0; m < around; ++m) {
+        if (dot(ring.u, first.at(math::kTwoPi * m / around)) >
+            dot(ring.u, first.at(math::kTwoPi * shift / around)))
+            shift = m;
+    }
+    const auto at = [&](int n, int m) {
+        if (n == kAlong) m += shift;
+        return static_cast<std::uint32_t>(n % kAlong * around + m % around);
+    };
+    for (int n = 0; n < kAlong; ++n) {
+        for (int m = 0; m < around; ++m)
+            add_quad(mesh, at(n, m), at(n + 1, m), at(n + 1, m + 1), at(n, m + 1));
+    }
+    return mesh;
+}
+
 // Upright, about the origin, 5 to 10 mm wide. `wide_arms`: as wide at their ends as grooves are at their
 // mouths.
 inline TriangleMesh any_star(Draw& draw, bool wide_arms) {

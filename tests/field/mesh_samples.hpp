@@ -51,4 +51,17 @@ inline TriangleMesh sphere_mesh(Vec3 centre, double radius, int levels) {
     return mesh;
 }
 
+// How often a mesh winds around a point: solid angles of its triangles seen from there, in full turns (van
+// Oosterom and Strackee 1983).
+inline double turns_about(const TriangleMesh& mesh, Vec3 p) {
+    double sum = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 a = mesh.position(t[0]) - p, b = mesh.position(t[1]) - p, c = mesh.position(t[2]) - p;
+        const double la = length(a), lb = length(b), lc = length(c);
+        sum += 2 * std::atan2(dot(a, cross(b, c)),
+                              la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
+    }
+    return sum / (4 * 3.14159265358979323846);
+}
+
 }  // namespace tribo::field::test

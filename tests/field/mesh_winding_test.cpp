@@ -10,18 +10,6 @@
 namespace tribo::field {
 namespace {
 
-// Solid angles of the triangles seen from the point, in full turns (van Oosterom and Strackee 1983).
-double turns_about(const TriangleMesh& mesh, Vec3 p) {
-    double sum = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const Vec3 a = mesh.position(t[0]) - p, b = mesh.position(t[1]) - p, c = mesh.position(t[2]) - p;
-        const double la = length(a), lb = length(b), lc = length(c);
-        sum += 2 * std::atan2(dot(a, cross(b, c)),
-                              la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
-    }
-    return sum / (4 * 3.14159265358979323846);
-}
-
 // Corners and points on a coarse lattice: points lie above corners, edges and upright triangles all the time.
 RC_GTEST_PROP(MeshWinding, is_the_solid_angle_of_any_watertight_mesh, ()) {
     const auto coordinate =
@@ -33,7 +21,7 @@ RC_GTEST_PROP(MeshWinding, is_the_solid_angle_of_any_watertight_mesh, ()) {
         const Point3f at{*coordinate, *coordinate, *coordinate};
         const Vec3 p{at[0], at[1], at[2]};
         if (tree.nearest(p).at.squared_mm2 < 1e-12) continue;  // on the surface there is no side
-        const double turns = turns_about(mesh, p);
+        const double turns = test::turns_about(mesh, p);
         RC_ASSERT(std::abs(turns - std::round(turns)) < 1e-6);
         RC_ASSERT(tree.winding(p) == static_cast<int>(std::round(turns)));
     }

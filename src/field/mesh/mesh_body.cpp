@@ -21,7 +21,8 @@ contact::SurfaceSample towards(Vec3 way, Vec3 otherwise) {
 }  // namespace
 
 MeshBody::MeshBody(TriangleMesh mesh, double thickness_mm, double skin_mm)
-    : distance_(std::move(mesh)),
+    : distance_(thickness_mm > 0 || skin_mm > 0 ? MeshDistance(std::move(mesh))
+                                                : MeshDistance::of_solid(std::move(mesh))),
       thickness_(thickness_mm),
       skin_(skin_mm),
       box_(distance_.bounds_mm().inflated(thickness_mm + 0.5 * skin_mm)) {

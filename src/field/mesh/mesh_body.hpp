@@ -16,10 +16,10 @@ namespace tribo::field {
 //
 // A skin has the surface in its middle: material is everything within half its thickness on either side.
 //
-// The nearest place decides on which side a point is: where surfaces of the mesh cross, that is wrong.
-// Distances in air are exact, by a search in a tree of boxes (about a microsecond), but beyond the border of
-// a bent sheet: there they are those to its wall (sheet_wall.hpp), although its back may be a little nearer.
-// Any number of threads; no allocation.
+// A closed mesh may pass through itself (mesh_outside.hpp). Of a sheet and a skin the nearest place decides
+// on which side a point is: where surfaces cross, that is wrong. Distances in air are exact, by a search in a
+// tree of boxes (about a microsecond), but beyond the border of a bent sheet: there they are those to its
+// wall (sheet_wall.hpp), although its back may be a little nearer. Any number of threads; no allocation.
 class MeshBody {
   public:
     // The mesh is welded and has a triangle. `thickness_mm` of a sheet, `skin_mm`; 0: it is none.

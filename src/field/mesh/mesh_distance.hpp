@@ -2,7 +2,12 @@
 // Signed distance to a triangle mesh.
 #pragma once
 
+#include <cmath>
+#include <optional>
+#include <utility>
+
 #include "field/mesh/mesh_normals.hpp"
+#include "field/mesh/mesh_outside.hpp"
 
 namespace tribo::field {
 
@@ -20,7 +25,10 @@ class MeshDistance {
   public:
     // The mesh needs at least one triangle. Edges are found by vertex numbers: use weld_exactly to make equal
     // positions one vertex if the mesh must be connected.
-    explicit MeshDistance(TriangleMesh mesh);
+    explicit MeshDistance(TriangleMesh mesh) : MeshDistance(std::move(mesh), false) {}
+    // Of a closed mesh: all around which it winds is material. Where it passes through itself, results are
+    // the closest places of the outside (mesh_outside.hpp).
+    static MeshDistance of_solid(TriangleMesh mesh) { return MeshDistance(std::move(mesh), true); }
 
     MeshPoint closest(Vec3 point_mm) const { return describe(point_mm, tree_.nearest(point_mm)); }
     // The same result, faster if `guess` is the triangle of a result near by.
@@ -31,7 +39,9 @@ class MeshDistance {
     std::optional<MeshPoint> closest_within(Vec3 point_mm, double reach_mm, std::uint32_t guess) const {
         const auto nearest = tree_.nearest_within(point_mm, reach_mm, guess);
         if (!nearest) return std::nullopt;
-        return describe(point_mm, *nearest);
+        const MeshPoint found = describe(point_mm, *nearest);
+        if (!(std::abs(found.distance_mm) < reach_mm)) return std::nullopt;
+        return found;
     }
 
     // As in MeshTree.
@@ -42,11 +52,14 @@ class MeshDistance {
     Box3 bounds_mm() const { return tree_.bounds_mm(); }
 
   private:
+    MeshDistance(TriangleMesh mesh, bool is_solid);
     MeshPoint describe(Vec3 point_mm, const MeshTree::Nearest& nearest) const;
+    MeshPoint describe_outside(Vec3 point_mm, MeshPoint nearest, TrianglePlace place) const;
 
     TriangleMesh mesh_;
     MeshTree tree_;
     MeshNormals normals_;
+    std::optional<MeshOutside> outside_;  // of a solid that passes through itself
 };
 
 }  // namespace tribo::field

@@ -13,8 +13,9 @@
 namespace tribo::field {
 
 // The union of what the mesh holds: bodies may overlap, as modellers leave them, and closed and open ones may
-// be mixed (mesh_parts.hpp, mesh_body.hpp). The front of a sheet is the side to which its normals point
-// (corners counter-clockwise). A mesh that crosses itself within one connected body is not taken apart.
+// be mixed (mesh_parts.hpp, mesh_body.hpp). A closed body that passes through itself is all that it winds
+// around (mesh_outside.hpp). The front of a sheet is the side to which its normals point (corners
+// counter-clockwise).
 //
 // Any number of threads; no allocation. Where bodies overlap a query asks up to kMostParts trees.
 class MeshField final : public contact::DistanceField {

@@ -10,7 +10,7 @@
 
 namespace tribo::field {
 
-// distance_mm is the exact distance to the mesh.
+// distance_mm is the exact distance to the mesh, or to the outside of one that passes through itself.
 class MeshShape final : public Shape {
   public:
     // Refuses a mesh that is not closed, that has turned-over triangles or that encloses nothing. If it is
@@ -26,7 +26,7 @@ class MeshShape final : public Shape {
 
   private:
     explicit MeshShape(TriangleMesh mesh)
-        : distance_(std::make_shared<const MeshDistance>(std::move(mesh))) {}
+        : distance_(std::make_shared<const MeshDistance>(MeshDistance::of_solid(std::move(mesh)))) {}
 
     std::shared_ptr<const MeshDistance> distance_;
 };

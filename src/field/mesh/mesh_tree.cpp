@@ -208,7 +208,8 @@ MeshTree::Nearest MeshTree::measure(Vec3 p, const Corners& t) const {
     return {t.triangle, closest_on_triangle(p, wide(t.a), wide(t.b), wide(t.c))};
 }
 
-void MeshTree::search(Vec3 p, Nearest& best) const {
+template <class Keeps>
+void MeshTree::search(Vec3 p, Nearest& best, const Keeps& keeps) const {
     const auto gap = [&](const Node& n) {
         const double x = axis_gap(p.x, n.min[0], n.max[0]), y = axis_gap(p.y, n.min[1], n.max[1]);
         const double z = axis_gap(p.z, n.min[2], n.max[2]);
@@ -236,16 +237,20 @@ void MeshTree::search(Vec3 p, Nearest& best) const {
             }
             for (std::uint32_t i = node.first; i < node.first + node.triangles; ++i) {
                 const Nearest found = measure(p, corners_[i]);
-                if (found.at.squared_mm2 < best.at.squared_mm2 ||
-                    (found.at.squared_mm2 == best.at.squared_mm2 && found.triangle < best.triangle)) {
-                    best = found;
-                }
+                const bool nearer =
+                    found.at.squared_mm2 < best.at.squared_mm2 ||
+                    (found.at.squared_mm2 == best.at.squared_mm2 && found.triangle < best.triangle);
+                if (nearer && keeps(found)) best = found;
             }
         }
         if (count == 0) return;
         at = waiting[--count].node;
         at_gap = waiting[count].gap;
     }
+}
+
+void MeshTree::search(Vec3 p, Nearest& best) const {
+    search(p, best, [](const Nearest&) { return true; });
 }
 
 MeshTree::Nearest MeshTree::nearest(Vec3 point_mm) const {
@@ -268,6 +273,38 @@ std::optional<MeshTree::Nearest> MeshTree::nearest_within(Vec3 point_mm, double 
     search(point_mm, best);
     if (!(best.at.squared_mm2 < limit)) return std::nullopt;
     return best;
+}
+
+std::optional<MeshTree::Nearest> MeshTree::nearest_kept(Vec3 point_mm, double reach_mm,
+                                                        const Filter& filter) const {
+    Nearest best;
+    best.at.squared_mm2 = reach_mm * reach_mm;
+    search(point_mm, best, [&](const Nearest& place) { return filter.keeps(place); });
+    if (!(best.at.squared_mm2 < reach_mm * reach_mm)) return std::nullopt;
+    return best;
+}
+
+void MeshTree::visit_overlapping(const Box3& box, const std::function<void(std::uint32_t)>& visit) const {
+    std::array<std::uint32_t, kMaxDepth> waiting;
+    std::size_t count = 0;
+    for (std::uint32_t at = 0;;) {
+        const Node& node = nodes_[at];
+        if (box.overlaps({wide(node.min), wide(node.max)})) {
+            if (node.triangles == 0) {
+                waiting[count++] = node.first;
+                ++at;
+                continue;
+            }
+            for (std::uint32_t i = node.first; i < node.first + node.triangles; ++i) {
+                const Corners& t = corners_[i];
+                Box3 own;
+                for (const Point3f& corner : {t.a, t.b, t.c}) own.include(wide(corner));
+                if (box.overlaps(own)) visit(t.triangle);
+            }
+        }
+        if (count == 0) return;
+        at = waiting[--count];
+    }
 }
 
 int MeshTree::winding(Vec3 p) const {

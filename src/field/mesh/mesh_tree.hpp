@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -43,6 +44,17 @@ class MeshTree {
     // The same result if it is nearer than reach_mm, else nothing. Faster for points far away.
     std::optional<Nearest> nearest_within(Vec3 point_mm, double reach_mm, std::uint32_t guess) const;
 
+    // Which places may be the result. Asked for those only that are nearer than the last one it kept.
+    struct Filter {
+        virtual ~Filter() = default;
+        virtual bool keeps(const Nearest& place) const = 0;
+    };
+    // The closest point of those triangles whose own closest point is kept, if it is nearer than reach_mm.
+    std::optional<Nearest> nearest_kept(Vec3 point_mm, double reach_mm, const Filter& filter) const;
+
+    // Calls `visit` with the number of each triangle whose box overlaps this one.
+    void visit_overlapping(const Box3& box, const std::function<void(std::uint32_t)>& visit) const;
+
     // Returns how often a watertight mesh winds around a point: 1 inside, 0 outside, other values where it
     // overlaps or folds over itself. Counts the triangles above the point, with a sign for the side that
     // faces the point. Triangles that share an edge agree on the side of a point, so that none is missed or
@@ -64,6 +76,8 @@ class MeshTree {
     };
     struct Builder;
 
+    template <class Keeps>
+    void search(Vec3 point_mm, Nearest& best, const Keeps& keeps) const;
     void search(Vec3 point_mm, Nearest& best) const;
     Nearest measure(Vec3 point_mm, const Corners& corners) const;
 

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "field/mesh/mesh_outside.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "field/mesh/triangles_apart.hpp"
+
+namespace tribo::field {
+namespace {
+
+// A side of a triangle is looked at this share of the mesh's diagonal beside it, and so many times that from
+// its edges.
+constexpr double kBeside = 1e-6, kFromEdge = 10;
+// Nearer to the outside than this a point tells no direction, mm.
+constexpr double kNoWay = 1e-6;
+
+struct Segment {
+    Vec3 from, to;
+};
+
+// Where a triangle meets a plane, by the heights of its corners over that; nothing if it does not, or in one
+// point, or lies in it. Corners within `slack` are on the plane.
+std::optional<Segment> on_plane(const Corners& t, const std::array<double, 3>& height, double slack) {
+    std::array<Vec3, 3> at;
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < 3; ++n) {
+        const double a = height[n], b = height[(n + 1) % 3];
+        if (std::abs(a) <= slack)
+            at[count++] = t[n];
+        else if (std::abs(b) > slack && (a < 0) != (b < 0))
+            at[count++] = lerp(t[n], t[(n + 1) % 3], a / (a - b));
+    }
+    if (count != 2) return std::nullopt;
+    return Segment{at[0], at[1]};
+}
+
+std::size_t shared_corners(const Corners& a, const Corners& b) {
+    std::size_t count = 0;
+    for (const Vec3 p : a) count += std::ranges::count(b, p) > 0 ? 1 : 0;
+    return count;
+}
+
+// Signed heights of the corners of a triangle over the plane of another one.
+std::array<double, 3> heights(const Corners& t, Vec3 normal, Vec3 on_plane) {
+    return {dot(normal, t[0] - on_plane), dot(normal, t[1] - on_plane), dot(normal, t[2] - on_plane)};
+}
+
+// Whether a triangle with these heights comes to the plane at no more than one point.
+bool stays_off(const std::array<double, 3>& height, double slack) {
+    int above = 0, below = 0;
+    for (const double h : height) {
+        above += h > slack ? 1 : 0;
+        below += h < -slack ? 1 : 0;
+    }
+    return above + below > 1 && (above == 0 || below == 0);
+}
+
+enum class Meeting { none, along_seam, in_one_plane };
+
+// Whether two triangles meet at more than a point, and where. Two that share an edge do not.
+Meeting meeting_of(const Facet& a, const Facet& b, double slack, Segment& seam) {
+    const Vec3 of_a = normalized(twice_area(a.at), Vec3{}), of_b = normalized(twice_area(b.at), Vec3{});
+    const std::array a_over = heights(a.at, of_b, b.at[0]), b_over = heights(b.at, of_a, a.at[0]);
+    if (stays_off(a_over, slack) || stays_off(b_over, slack)) return Meeting::none;
+    if (shared_corners(a.at, b.at) >= 2 || surely_apart(a, b)) return Meeting::none;
+    const auto in_a = on_plane(a.at, a_over, slack), in_b = on_plane(b.at, b_over, slack);
+    if (!in_a || !in_b) {
+        const auto is_on = [slack](double h) { return std::abs(h) <= slack; };
+        return std::ranges::all_of(a_over, is_on) ? Meeting::in_one_plane : Meeting::none;
+    }
+    // Both on the line of the two planes: the common part.
+    const Vec3 along = normalized(cross(of_a, of_b), Vec3{});
+    const auto ordered = [&](Segment s) {
+        if (dot(along, s.to - s.from) < 0) std::swap(s.from, s.to);
+        return s;
+    };
+    const Segment one = ordered(*in_a), other = ordered(*in_b);
+    seam = {dot(along, other.from - one.from) > 0 ? other.from : one.from,
+            dot(along, other.to - one.to) < 0 ? other.to : one.to};
+    return dot(along, seam.to - seam.from) > slack ? Meeting::along_seam : Meeting::none;
+}
+
+Facet facet(const TriangleMesh& mesh, std::uint32_t n) {
+    return {mesh.triangles[n], corners(mesh, mesh.triangles[n])};
+}
+
+Box3 box_of(const Corners& t) {
+    Box3 box;
+    for (const Vec3 p : t) box.include(p);
+    return box;
+}
+
+}  // namespace
+
+// Keeps the places of the outside.
+class MeshOutside::Outer final : public MeshTree::Filter {
+  public:
+    Outer(const MeshOutside& outside, const TriangleMesh& mesh, const MeshTree& tree)
+        : outside_(outside), mesh_(mesh), tree_(tree) {}
+    bool keeps(const MeshTree::Nearest& place) const override {
+        Side side = outside_.side_[place.triangle];
+        if (side == Side::crossed) side = outside_.side_at(mesh_, tree_, place.triangle, place.at.point_mm);
+        return side != Side::within;
+    }
+
+  private:
+    const MeshOutside& outside_;
+    const TriangleMesh& mesh_;
+    const MeshTree& tree_;
+};
+
+// How a triangle lies at one of its places.
+MeshOutside::Side MeshOutside::side_at(const TriangleMesh& mesh, const MeshTree& tree, std::uint32_t triangle,
+                                       Vec3 at) const {
+    const Corners t = corners(mesh, mesh.triangles[triangle]);
+    const Vec3 inward = (1.0 / 3) * (t[0] + t[1] + t[2]) - at;
+    const double far = length(inward), from_edge = kFromEdge * beside_mm_;
+    at += (far > from_edge ? from_edge / far : 1) * inward;
+    const Vec3 beside = beside_mm_ * normalized(twice_area(t), Vec3{});
+    const bool air_before = tree.winding(at + beside) == 0, air_behind = tree.winding(at - beside) == 0;
+    if (air_before == air_behind) return Side::within;
+    return air_before ? Side::front : Side::back;
+}
+
+void MeshOutside::find_crossings(const TriangleMesh& mesh, const MeshTree& tree, std::vector<Seam>& seams) {
+    const double slack = 1e-2 * beside_mm_;
+    for (std::uint32_t one = 0; one < mesh.triangles.size(); ++one) {
+        const Facet a = facet(mesh, one);
+        tree.visit_overlapping(box_of(a.at), [&](std::uint32_t other) {
+            if (other <= one) return;
+            Segment seam;
+            const Meeting meeting = meeting_of(a, facet(mesh, other), slack, seam);
+            if (meeting == Meeting::none) return;
+            side_[one] = side_[other] = Side::crossed;
+            if (meeting == Meeting::along_seam && seams.size() < kMostSeams)
+                seams.push_back({seam.from, seam.to, {one, other}});
+        });
+    }
+}
+
+// Keeps the parts of the seams between crossings with further triangles that have both material and air
+// beside them.
+void MeshOutside::keep_outer(const TriangleMesh& mesh, const MeshTree& tree, const std::vector<Seam>& seams) {
+    TriangleMesh kept;
+    std::vector<double> cuts;
+    for (const Seam& seam : seams) {
+        cuts.assign({0, 1});
+        Box3 box;
+        box.include(seam.from);
+        box.include(seam.to);
+        tree.visit_overlapping(box, [&](std::uint32_t n) {
+            if (side_[n] != Side::crossed || n == seam.triangles[0] || n == seam.triangles[1]) return;
+            const Corners t = corners(mesh, mesh.triangles[n]);
+            const Vec3 normal = twice_area(t);
+            const double before = dot(normal, seam.from - t[0]), behind = dot(normal, seam.to - t[0]);
+            if ((before < 0) != (behind < 0)) cuts.push_back(before / (before - behind));
+        });
+        std::ranges::sort(cuts);
+        const auto normal = [&](int n) {
+            return normalized(twice_area(corners(mesh, mesh.triangles[seam.triangles[n]])), Vec3{});
+        };
+        const Vec3 both = normalized(normal(0) + normal(1)), apart = normalized(normal(0) - normal(1));
+        for (std::size_t n = 1; n < cuts.size(); ++n) {
+            const Vec3 from = lerp(seam.from, seam.to, cuts[n - 1]), to = lerp(seam.from, seam.to, cuts[n]);
+            if (distance(from, to) <= beside_mm_) continue;
+            const Vec3 middle = lerp(from, to, 0.5);
+            int in_air = 0;
+            for (const Vec3 aside : {both, -1 * both, apart, -1 * apart})
+                in_air += tree.winding(middle + beside_mm_ * aside) == 0 ? 1 : 0;
+            if (in_air == 0 || in_air == 4) continue;
+            const auto first = static_cast<std::uint32_t>(kept.positions.size());
+            kept.positions.push_back(to_float(from));
+            kept.positions.push_back(to_float(to));
+            kept.triangles.push_back({first, first + 1, first + 1});
+            seam_triangle_.push_back(seam.triangles[0]);
+        }
+    }
+    if (!kept.triangles.empty()) seams_.emplace(kept);
+}
+
+std::optional<MeshOutside> MeshOutside::of(const TriangleMesh& mesh, const MeshTree& tree) {
+    MeshOutside found;
+    const Box3 box = tree.bounds_mm();
+    found.beside_mm_ = kBeside * distance(box.min, box.max);
+    found.side_.assign(mesh.triangles.size(), Side::front);
+    std::vector<Seam> seams;
+    found.find_crossings(mesh, tree, seams);
+    if (std::ranges::none_of(found.side_, [](Side s) { return s == Side::crossed; })) return std::nullopt;
+    std::vector<bool> near(mesh.positions.size());
+    for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
+        if (found.side_[n] != Side::crossed) continue;
+        for (const std::uint32_t corner : mesh.triangles[n]) near[corner] = true;
+    }
+    for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
+        const Triangle& corner = mesh.triangles[n];
+        found.near_crossed_.push_back(near[corner[0]] || near[corner[1]] || near[corner[2]]);
+        if (found.side_[n] == Side::crossed) continue;
+        const Corners t = corners(mesh, corner);
+        found.side_[n] = found.side_at(mesh, tree, n, (1.0 / 3) * (t[0] + t[1] + t[2]));
+    }
+    found.keep_outer(mesh, tree, seams);
+    return found;
+}
+
+MeshOutside::Place MeshOutside::nearest(const TriangleMesh& mesh, const MeshTree& tree, Vec3 p) const {
+    MeshTree::Nearest best;
+    best.at.squared_mm2 = 1e300;
+    if (seams_) {
+        best = seams_->nearest(p);
+        best.triangle = seam_triangle_[best.triangle];
+    }
+    const auto face = tree.nearest_kept(p, std::sqrt(best.at.squared_mm2), Outer(*this, mesh, tree));
+    if (face) best = *face;
+    const Vec3 way = best.at.point_mm - p;
+    const double far = std::sqrt(best.at.squared_mm2);
+    if (far > kNoWay) return {best, way / far};
+    const Vec3 normal = normalized(twice_area(corners(mesh, mesh.triangles[best.triangle])));
+    const bool turned = side_at(mesh, tree, best.triangle, best.at.point_mm) == Side::back;
+    return {best, turned ? -1 * normal : normal};
+}
+
+}  // namespace tribo::field
