@@ -59,7 +59,7 @@ class FakeBoard {
             for (ssize_t n = 0; n < count; ++n) {
                 if (bytes[static_cast<std::size_t>(n)] == TRIBO_ARM_ASK && !asked) {
                     asked = true;
-                    const std::string text = "Starting...\r\n" + hello_ + "\n";
+                    const std::string text = "Starting...\r\n" + hello_ + "\r\n";
                     (void)!::write(handle_, text.data(), text.size());
                     continue;
                 }
@@ -129,7 +129,10 @@ TEST(SerialArm, says_what_it_can_where_the_hand_is_and_gets_its_force) {
     ASSERT_NE(device, nullptr);
     EXPECT_EQ(device->limits().name, "Paddle");
     EXPECT_EQ(device->limits().max_force_n, 3);
-    EXPECT_EQ(device->limits().resolution_mm, 0.02);
+    // Two millimetres of the stock are one of the hand.
+    EXPECT_EQ(device->limits().resolution_mm, 0.04);
+    EXPECT_EQ(device->limits().max_stiffness_n_per_mm, 0.2);
+    EXPECT_EQ(device->limits().max_damping_n_s_per_mm, 0.0005);
     haptics::HandReading reading;
     ASSERT_TRUE(read_until(*device, reading, [] { return true; }));
     EXPECT_NEAR(distance(reading.position_mm, {1 + 4, 2 - 2, 3 + 2 * 655.34}), 0, 1e-9);

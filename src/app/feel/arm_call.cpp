@@ -28,20 +28,21 @@ void add_arm_flags(CLI::App& verb, ArmCall& call) {
 double stable_stiffness(std::optional<double> asked, const haptics::DeviceLimits& limits, double rate_hz,
                         const ArmCall& call, const std::string& file, Warnings& warnings) {
     const double wanted = asked.value_or(0.5);
-    const double passive = haptics::passive_stiffness_n_per_mm(1 / rate_hz, call.delay_s());
+    const double passive = haptics::passive_stiffness_n_per_mm(1 / rate_hz, call.delay_s()) / limits.scale;
     const double most = std::min(limits.max_stiffness_n_per_mm, passive);
     if (wanted <= most) return wanted;
-    char text[200];
+    char text[250], at_scale[60] = "";
+    if (limits.scale != 1) std::snprintf(at_scale, sizeof at_scale, " at a scale of %g", limits.scale);
     if (passive < limits.max_stiffness_n_per_mm) {
         std::snprintf(
             text, sizeof text,
-            "a stiffness of %g N/mm would push the hand by itself at a delay of %g ms and %g Hz: %.3g "
+            "a stiffness of %g N/mm would push the hand by itself%s, a delay of %g ms and %g Hz: %.3g "
             "stands in",
-            wanted, call.delay_ms, rate_hz, most);
+            wanted, at_scale, call.delay_ms, rate_hz, most);
     } else {
         std::snprintf(text, sizeof text,
-                      "a stiffness of %g N/mm is more than '%.*s' keeps stable: %g stands in", wanted,
-                      static_cast<int>(limits.name.size()), limits.name.data(), most);
+                      "a stiffness of %g N/mm is more than '%.*s' keeps stable%s: %g stands in", wanted,
+                      static_cast<int>(limits.name.size()), limits.name.data(), at_scale, most);
     }
     // Warn only about a requested value.
     if (asked) warnings.push_back({file, 0, text});

@@ -93,7 +93,7 @@ class ForceDimension final : public haptics::Device {
     ForceDimension(SharedLibrary library, const Api& api, char id, const ForceDimensionOptions& options)
         : library_(std::move(library)), api_(api), id_(id), mounting_(options.mounting) {
         name_ = words(api_.system_name(id_));
-        limits_ = haptics::limits_of(name_);
+        limits_ = haptics::scaled(haptics::limits_of(name_), mounting_.scale);
         limits_.name = name_;
         std::array<int, DHD_STATUS_COUNT> status{};
         wrist_ = api_.orientation != nullptr && api_.status(status.data(), id_) >= 0 &&

@@ -94,7 +94,7 @@ class Haply final : public haptics::Device {
           mounting_(options.mounting),
           has_presets_(state_.has_presets),
           model_(state_.model.empty() ? "Inverse3" : state_.model),
-          limits_(haptics::limits_of(model_)) {
+          limits_(haptics::scaled(haptics::limits_of(model_), mounting_.scale)) {
         limits_.name = model_;
         publish();
         thread_ = std::thread([this] { loop(); });

@@ -86,7 +86,7 @@ class OpenHaptics final : public haptics::Device {
         : library_(std::move(library)), api_(api), handle_(handle), mounting_(options.mounting) {
         const char* model = api_.get_string(HD_DEVICE_MODEL_TYPE);
         model_ = model != nullptr ? model : "";
-        limits_ = haptics::limits_of(model_);
+        limits_ = haptics::scaled(haptics::limits_of(model_), mounting_.scale);
         limits_.name = model_;
         // The value reported by the arm, if it is lower.
         double value = 0;

@@ -69,7 +69,10 @@ class Port {
 class SerialArm final : public haptics::Device {
   public:
     SerialArm(Port port, SerialArmFacts facts, const Mounting& mounting)
-        : port_(std::move(port)), facts_(std::move(facts)), limits_(facts_.limits), mounting_(mounting) {
+        : port_(std::move(port)),
+          facts_(std::move(facts)),
+          limits_(haptics::scaled(facts_.limits, mounting.scale)),
+          mounting_(mounting) {
         limits_.name = facts_.name;
     }
     ~SerialArm() override { (void)write({}); }
@@ -210,8 +213,9 @@ Result<std::string> ask(Port& port, const SerialArmOptions& options) {
         for (int n = 0; n < count; ++n) text.push_back(static_cast<char>(bytes[static_cast<std::size_t>(n)]));
         const std::size_t from = text.find(TRIBO_ARM_HELLO);
         if (from != std::string::npos) {
+            // The library of Arduino ends its lines with CR LF.
             const std::size_t to = text.find('\n', from);
-            if (to != std::string::npos) return text.substr(from, to - from);
+            if (to != std::string::npos) return text.substr(from, to - from - (text[to - 1] == '\r' ? 1 : 0));
         } else if (text.size() > 2 * kLongestLine) {
             text.erase(0, text.size() - kLongestLine);
         }

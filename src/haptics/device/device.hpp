@@ -31,6 +31,7 @@ enum class DeviceState : std::uint8_t {
 class Device {
   public:
     virtual ~Device() = default;
+    // In the frame of its readings, as it is mounted.
     virtual const DeviceLimits& limits() const = 0;
     virtual DeviceState read(HandReading& reading) noexcept = 0;
     // Force on the hand in N, stock frame.

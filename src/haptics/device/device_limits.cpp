@@ -36,4 +36,12 @@ const DeviceLimits& limits_of(std::string_view model) {
     return *std::ranges::min_element(kDevices, {}, &DeviceLimits::max_force_n);
 }
 
+DeviceLimits scaled(DeviceLimits of_hand, double scale) {
+    of_hand.max_stiffness_n_per_mm /= scale;
+    of_hand.max_damping_n_s_per_mm /= scale;
+    of_hand.resolution_mm *= scale;
+    of_hand.scale *= scale;
+    return of_hand;
+}
+
 }  // namespace tribo::haptics

@@ -13,7 +13,12 @@ struct DeviceLimits {
     double max_stiffness_n_per_mm = 0;  // stable in a closed loop at 1 kHz
     double max_damping_n_s_per_mm = 0;  // the same
     double resolution_mm = 0;           // of its positions
+    double scale = 1;                   // millimetres of these per millimetre of the hand
 };
+
+// The same for positions that are so many times those of the hand. A force stays as it is, so that a spring
+// of the stock is so many times as stiff to the hand.
+DeviceLimits scaled(DeviceLimits of_hand, double scale);
 
 // Arms by name. Force, stiffness and damping are those of CHAI3D 3.3.0 (the specifications in its files
 // CPhantomDevice, CDeltaDevices and CHaplyDevice), converted from N/m and N s/m. Resolutions are from the

@@ -34,7 +34,7 @@ struct SafetyLimits {
     double slew_n_per_ms = 2;  // for rising forces; a fault falls faster
     double ramp_s = 0.5;       // 0: full force at once
     double tick_s = 1e-3;      // servo period; a late tick may not change the force by more than a normal one
-    double max_speed_mm_per_s = 1500;   // of the hand; more is a fault
+    double max_speed_mm_per_s = 1500;   // more is a fault
     double damping_n_s_per_mm = 0.002;  // during a fault
     double device_silent_s = 5e-3;
     double simulation_stalled_s = 0.25;

@@ -121,6 +121,7 @@ haptics::SafetyLimits safety_limits(const haptics::Device& device, double rate_h
     haptics::SafetyLimits limits;
     limits.max_force_n = device.limits().max_force_n;
     limits.damping_n_s_per_mm = 0.5 * device.limits().max_damping_n_s_per_mm;
+    limits.max_speed_mm_per_s *= device.limits().scale;
     limits.tick_s = 1 / rate_hz;
     if (!device.has_motors()) {
         limits.ramp_s = 0;

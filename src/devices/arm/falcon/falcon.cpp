@@ -141,7 +141,9 @@ std::array<int, 3> motors_for(Vec3 force_n, Vec3 grip) {
 class Falcon final : public haptics::Device {
   public:
     Falcon(FtdiPort port, const falcon::State& first, const Mounting& mounting)
-        : port_(std::move(port)), mounting_(mounting) {
+        : port_(std::move(port)),
+          mounting_(mounting),
+          limits_(haptics::scaled(haptics::limits_of("Falcon"), mounting.scale)) {
         take(first);
         thread_ = std::thread([this] { loop(); });
     }
@@ -205,7 +207,7 @@ class Falcon final : public haptics::Device {
     };
     FtdiPort port_;
     Mounting mounting_;
-    haptics::DeviceLimits limits_ = haptics::limits_of("Falcon");
+    haptics::DeviceLimits limits_;
     Vec3 grip_ = falcon::kMiddle;
     std::array<Past, kSpeedReadings + 1> past_;
     std::uint64_t taken_ = 0;
