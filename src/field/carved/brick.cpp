@@ -152,10 +152,12 @@ void prune_shapes(Brick& brick, const float* newest_mm, float cell_mm, float tie
         for (std::size_t n = row; n < row + kLatticeEdge; ++n)
             use[std::min<std::size_t>(brick.winner[n], count)] |= marks[n];
     }
+    // Where the newest one gives no node near the surface, it cannot take the place of another one.
+    const std::uint8_t needed = use[newest] != 0 ? kMarkAlone : kMarkAlone | kMarkNear;
     std::array<std::uint16_t, kMostListed> renamed;
     std::uint16_t kept = 0;
     for (std::size_t s = 0; s < count; ++s) {
-        const bool keeps = s == newest ? use[s] != 0 : (use[s] & kMarkAlone) != 0;
+        const bool keeps = s == newest ? use[s] != 0 : (use[s] & needed) != 0;
         if (keeps) brick.shapes[kept] = brick.shapes[s];
         renamed[s] = keeps ? kept++ : Brick::kUnlisted;
     }
