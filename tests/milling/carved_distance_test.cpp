@@ -46,12 +46,13 @@ Cutter any_cutter(Draw& draw) {
     Cutter c;
     c.kind = draw.one_of(kKinds);
     c.diameter_mm = draw.between(4, 14);
+    c.length_mm = c.kind == CutterKind::barrel ? 2 * c.diameter_mm : 0;
     c.taper_deg = c.kind == CutterKind::taper ? draw.between(5, 20) : 0;
     c.tip_mm = c.kind == CutterKind::taper || c.kind == CutterKind::chamfer ? 0.4 * c.diameter_mm : 0;
     c.point_deg = c.kind == CutterKind::v || c.kind == CutterKind::chamfer ? draw.between(50, 130) : 0;
     c.neck_mm = c.kind == CutterKind::lollipop ? 0.5 * c.diameter_mm : 0;
     c.side_mm = c.kind == CutterKind::lens     ? c.diameter_mm
-                : c.kind == CutterKind::barrel ? 6 * c.diameter_mm
+                : c.kind == CutterKind::barrel ? 16 * c.diameter_mm
                                                : 0;
     const auto made = make_profile(c);
     EXPECT_TRUE(made) << (made ? "" : made.error().text());
