@@ -12,6 +12,8 @@ namespace {
 
 // Nearer to the mesh than this, the direction to it is rounding noise, mm.
 constexpr double kOnSurface = 1e-6;
+// Normals that differ by less are of one side.
+constexpr double kAlike = 1e-3;
 
 contact::SurfaceSample towards(Vec3 way, Vec3 otherwise) {
     const double d = length(way);
@@ -32,6 +34,18 @@ MeshBody::MeshBody(TriangleMesh mesh, double thickness_mm, double skin_mm)
     wall_tree_.emplace(wall.mesh);
 }
 
+// The normal at a place where the point itself tells no direction. At the bottom of a groove the surface has
+// two, and the mean of them is none: it is the one that is nearer from a little in front.
+Vec3 MeshBody::normal_on(const MeshPoint& at) const {
+    constexpr double kInFront = 1e-4;  // mm
+    const Vec3 face = distance_.normals().at(distance_.mesh(), at.triangle, TrianglePlace::face);
+    if (squared_length(at.normal - face) < kAlike * kAlike ||
+        squared_length(at.normal + face) < kAlike * kAlike)
+        return at.normal;
+    const Vec3 in_front = at.point_mm + kInFront * at.normal;
+    return normalized(in_front - distance_.closest(in_front).point_mm, at.normal);
+}
+
 contact::SurfaceSample MeshBody::sample(Vec3 p) const {
     const MeshPoint at = distance_.closest(p);
     const Vec3 way = p - at.point_mm;
@@ -49,7 +63,7 @@ contact::SurfaceSample MeshBody::sample(Vec3 p) const {
         const auto [beyond, off] = to_wall();
         return towards(beyond, off);
     }
-    const Vec3 front = std::abs(s) > kOnSurface ? way / s : at.normal;
+    const Vec3 front = std::abs(s) > kOnSurface ? way / s : normal_on(at);
     if (!is_sheet() || s >= 0) return {s, front, 0};
     const auto [beyond, off] = to_wall();
     const double back = -s - thickness_, end = length(beyond);

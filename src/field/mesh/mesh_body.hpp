@@ -32,6 +32,8 @@ class MeshBody {
     bool is_sheet() const { return thickness_ > 0; }
 
   private:
+    Vec3 normal_on(const MeshPoint& at) const;
+
     MeshDistance distance_;
     double thickness_, skin_;
     Box3 box_;

@@ -154,6 +154,7 @@ class FieldContact {
     bool push_out();
     void renew_anchor();
     void fetch_anchor();
+    void raise_anchor(double height_mm);
     static Vec3 up_from(const Place& place);
     bool tie(const Place& to);
     bool chain(const Anchor& to);
@@ -195,6 +196,7 @@ class FieldContact {
     int looks_ = 0, next_look_ = 0;
     Anchor anchor_;
     double chained_mm_ = 0;  // length of the last chain
+    bool misled_ = false;    // the last one from the anchor did not lead to where it should
     // What last left no room over a place of the proxy; its normal is 0: nothing did.
     contact::HalfSpace cramping_;
     Place at_;        // the contact, tied

@@ -13,6 +13,11 @@ constexpr double kTouches = 0.01;
 constexpr double kStepsHigh = 2;
 // Where there is room for less than this share of its height another way leads up.
 constexpr double kCramped = 0.25;
+// In a groove so sharp (the sine of half its angle) no ball is looked for at its bottom; two balls there
+// overlap by this share.
+constexpr double kSharpest = 0.02, kOverlap = 0.99;
+// An anchor at less than this share of the height that is asked for is low.
+constexpr double kLowAnchor = 0.5;
 // An anchor so many times its radius away from the proxy is of no use any more.
 constexpr double kLeftBehind = 10;
 
@@ -63,6 +68,18 @@ void FieldContact::fetch_anchor() {
     if (anchor_.radius <= kSkin) anchor_ = left;
 }
 
+// An anchor near the bottom of a sharp groove has hardly room to lead on: the ball so high above the same
+// place takes its turn.
+void FieldContact::raise_anchor(double height_mm) {
+    if (gap_.radius_mm() > 0 || distance(anchor_.at, at_.proxy) > kLowAnchor * height_mm || !budget(1))
+        return;
+    const Vec3 at = at_.proxy + height_mm * up_from(at_);
+    const Anchor above{at, clearance_mm(at, height_mm, true)};
+    if (above.radius > anchor_.radius &&
+        reaches_down(above, at_.proxy, std::max(kTouches * height_mm, skin())))
+        anchor_ = above;
+}
+
 // Away from all sides as fast as can be: the shortest way to 1 above each.
 Vec3 FieldContact::up_from(const Place& place) {
     contact::HalfSpaces above = place.sides;
@@ -71,13 +88,23 @@ Vec3 FieldContact::up_from(const Place& place) {
 }
 
 // Whether a ball, and ever smaller ones towards the proxy, reach it: between walls the first does not.
+// Between two that meet at the proxy they shrink with the way that is left: the next one is put where it just
+// touches this one, and where there is less room than that, where this one ends.
 bool FieldContact::reaches_down(Anchor ball, Vec3 proxy, double tolerance_mm) {
     for (;;) {
         const double left = distance(ball.at, proxy);
         if (left <= ball.radius + tolerance_mm) return true;
-        if (ball.radius <= 0.1 * left || !budget(1)) return false;
-        ball.at += (ball.radius / left) * (proxy - ball.at);
-        ball.radius = clearance_mm(ball.at, distance(ball.at, proxy));
+        if (ball.radius <= kSharpest * left || !budget(1)) return false;
+        const Vec3 ahead = (proxy - ball.at) / left;
+        const double step = kOverlap * 2 * ball.radius / (1 + ball.radius / left);
+        Anchor next{ball.at + step * ahead};
+        next.radius = clearance_mm(next.at, left - step);
+        if (next.radius < step - ball.radius) {
+            if (!budget(1)) return false;
+            next.at = ball.at + ball.radius * ahead;
+            next.radius = clearance_mm(next.at, left - ball.radius);
+        }
+        ball = next;
     }
 }
 
@@ -97,11 +124,13 @@ bool FieldContact::tie(const Place& to) {
     Vec3 up = up_from(to);
     double height = std::clamp(std::max(kStepsHigh * step, height_), kLowest, kHighest);
     const Vec3 first = up;
+    if (misled_) raise_anchor(height);
     for (int tries = 0; tries < 4 && budget(2); ++tries) {
         const Vec3 at = to.proxy + height * up;
         const Anchor a{at, clearance_mm(at, height, true)};
         if (reaches_down(a, to.proxy, std::max(kTouches * height, skin()))) {
             const bool leads = chain(a);
+            misled_ = !leads;
             height_ = leads ? height : std::max(kLowest, 0.25 * height);
             return leads;
         }

@@ -18,6 +18,15 @@ constexpr double kNoBound = 1e30;
 constexpr double kStraight = 1e-9;
 // Surfaces that are nearer to each other than this meet in an edge, mm.
 constexpr double kEdgeMm = 1e-5;
+// Nearer to the axis of the tool than this the way from it is rounding: at a tip it would tell of a wall
+// ahead. mm.
+constexpr double kOnAxis = 1e-9;
+
+// Unit; zero on the axis.
+Vec3 radial_of(Vec3 across) {
+    const double r = length(across);
+    return r > kOnAxis ? across / r : Vec3{};
+}
 
 // Calls distance(point, bound) for the nodes of a lattice. `near` and rows as in sweep_kernels.inl: where the
 // neighbour before shows that a node is farther than `near` from the surface, its bound is enough.
@@ -68,7 +77,7 @@ class LevelSweep : public field::Shape {
     ToolCylinder cylinder() const { return {zones_->radius_mm(), zones_->length_mm()}; }
     static View view(const Frame& frame, Vec3 off) {
         const Vec3 across{off.x, off.y, 0};
-        return {{length(across), off.z}, frame.out_of(normalized(across, {0, 0, 0})), frame.z};
+        return {{length(across), off.z}, frame.out_of(radial_of(across)), frame.z};
     }
 
     std::shared_ptr<const ConvexZones> zones_;
@@ -120,7 +129,7 @@ ZonesView zones_view(const CurvedLine& c, Vec3 point, double t) {
     v.at.z = dot(d, v.axis);
     const Vec3 radial = d - v.at.z * v.axis;
     v.at.r = length(radial);
-    v.radial = normalized(radial, {0, 0, 0});
+    v.radial = radial_of(radial);
     v.rate.z = dot(d, axis_rate) - dot(velocity, v.axis);
     v.rate.r = -dot(v.radial, velocity) - v.at.z * dot(v.radial, axis_rate);
     return v;
