@@ -204,6 +204,38 @@ RC_GTEST_PROP(ProfileSweep, of_a_ball_drawn_as_a_profile_is_that_of_the_ball, ()
     }
 }
 
+// Along the line of its tip a pointed tool leaves two sides, neither of which faces the way.
+TEST(ProfileSweep, of_a_pointed_tool_tells_of_no_wall_ahead) {
+    Cutter c;
+    c.kind = CutterKind::v;
+    c.diameter_mm = 4;
+    c.point_deg = 40;
+    c.length_mm = 0;
+    ASSERT_TRUE(make_profile(c));
+    for (int n = 0; n < 40; ++n) {
+        const double yaw = 0.17 * n, rise = n % 2 == 0 ? 0 : 0.3;
+        Move level;
+        level.start.tip_mm = {1.1, -0.7, 0.3 * n};
+        level.end.tip_mm = level.start.tip_mm + Vec3{7.3 * std::cos(yaw), 7.3 * std::sin(yaw), rise};
+        const auto sweep = make_sweep(c, level);
+        const Vec3 way = normalized(level.end.tip_mm - level.start.tip_mm);
+        for (const double share : {0.1, 0.3, 1.0 / 3, 0.77}) {
+            const Vec3 at = lerp(level.start.tip_mm, level.end.tip_mm, share);
+            // As steep as the way rises.
+            EXPECT_LE(std::abs(dot(sweep->gradient(at), way)), rise == 0 ? 1e-6 : 0.1) << n << ' ' << share;
+        }
+    }
+    Move arc;
+    arc.start.tip_mm = {5, 0, 1};
+    arc.end.tip_mm = {0, 5, 1};
+    arc.arc = motion::Arc{{0, 0, 1}, {0, 0, 1}, 0.5 * std::numbers::pi};
+    const auto sweep = make_sweep(c, arc);
+    for (const double angle : {0.2, 0.5, 1.1}) {
+        const Vec3 at{5 * std::cos(angle), 5 * std::sin(angle), 1}, way{-std::sin(angle), std::cos(angle), 0};
+        EXPECT_LE(std::abs(dot(sweep->gradient(at), way)), 1e-6) << angle;
+    }
+}
+
 // A quarter circle that is hollow, about (4, 0): near it the distance is the way, at its centre less. The
 // cutter goes on above its level end.
 TEST(ProfileSweep, of_a_hollow_arc_tells_the_way_to_its_circle) {
