@@ -281,6 +281,33 @@ TEST_F(Feel, touches_a_model_whose_triangles_do_not_agree_on_a_side) {
     EXPECT_NEAR(rows.back().fz, 0.5 * (0.5 + 0.072), 2e-3);
 }
 
+TEST_F(Feel, refuses_flags_of_a_cut_for_a_model_and_says_where_it_is) {
+    put("tetra.obj", "v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    put("press.csv", "t_s,x_mm,y_mm,z_mm\n0,1,1,12\n0.1,1,1,5\n");
+    const auto run = [&](std::vector<std::string> flags) {
+        std::vector<std::string> call{"feel",  "tetra.obj", "--stroke", "press.csv",
+                                      "--out", "trace.csv", "--device", "playback"};
+        call.insert(call.end(), flags.begin(), flags.end());
+        return run_tribo(call, folder_.string());
+    };
+    const Outcome good = run({});
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_NE(good.out.find("from (0, 0, 0) to (9, 9, 9) mm"), std::string::npos) << good.out;
+    for (const std::vector<std::string>& flags :
+         std::vector<std::vector<std::string>>{{"--until", "3"},
+                                               {"--resolution", "0.1"},
+                                               {"--texture", "off"},
+                                               {"--bake", "x.bake"},
+                                               {"--profile", "who.toml"},
+                                               {"--scaling", "compressive"}}) {
+        const Outcome refused = run(flags);
+        EXPECT_EQ(refused.code, 2) << flags[0];
+        EXPECT_NE(refused.err.find(flags[0] + " belongs to a cut"), std::string::npos) << refused.err;
+    }
+    EXPECT_NE(run({"--arm-scale", "3"}).err.find("--arm-scale says nothing without an arm"),
+              std::string::npos);
+}
+
 TEST_F(Feel, says_which_devices_there_are) {
     const Outcome text = run_tribo({"devices"}, folder_.string());
     EXPECT_EQ(text.code, 0);

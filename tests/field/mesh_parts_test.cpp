@@ -16,12 +16,8 @@ namespace tribo::field {
 namespace {
 
 using test::box_mesh;
+using test::turned;
 using tribo::test::Draw;
-
-TriangleMesh turned(TriangleMesh mesh) {
-    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
-    return mesh;
-}
 
 // Signed, exact.
 double distance_to(const Box3& box, Vec3 p) {

@@ -25,6 +25,12 @@ inline TriangleMesh box_mesh(const Box3& box) {
     return mesh;
 }
 
+// Inside out.
+inline TriangleMesh turned(TriangleMesh mesh) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
 // An octahedron, each face cut in four `levels` times, its corners on the sphere: 8 * 4^levels triangles.
 inline TriangleMesh sphere_mesh(Vec3 centre, double radius, int levels) {
     std::vector<Vec3> corners{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};

@@ -36,9 +36,9 @@ double stable_stiffness(std::optional<double> asked, const haptics::DeviceLimits
     if (passive < limits.max_stiffness_n_per_mm) {
         std::snprintf(
             text, sizeof text,
-            "a stiffness of %g N/mm would push the hand by itself%s, a delay of %g ms and %g Hz: %.3g "
+            "a stiffness of %g N/mm would push the hand by itself at a delay of %g ms and %g Hz%s: %.3g "
             "stands in",
-            wanted, at_scale, call.delay_ms, rate_hz, most);
+            wanted, call.delay_ms, rate_hz, at_scale, most);
     } else {
         std::snprintf(text, sizeof text,
                       "a stiffness of %g N/mm is more than '%.*s' keeps stable%s: %g stands in", wanted,

@@ -10,6 +10,7 @@
 #include <memory>
 #include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/exit.hpp"
@@ -18,6 +19,7 @@
 #include "app/outputs.hpp"
 #include "app/progress.hpp"
 #include "app/render/render_job.hpp"
+#include "base/text/decimal.hpp"
 #include "base/text/printable.hpp"
 #include "devices/arm/device_search.hpp"
 #include "devices/arm/force_plugin.hpp"
@@ -198,6 +200,18 @@ FileResult<void> read_model(const FeelCall& call, Part& part) {
     if (call.mode == "cut") return refuse("a model has no cut to feel", "give a job, or --mode inspect");
     if (auto good = refuse_flags(call.program, call.job, "this is a model", "leave the flag out"); !good)
         return std::unexpected(FileFailure(good.error()));
+    const std::pair<const char*, bool> of_a_cut[] = {
+        {"--resolution", call.resolution_mm.has_value()},
+        {"--until", call.until_s.has_value()},
+        {"--texture", !call.texture},
+        {"--scaling", call.compressive},
+        {"--profile", !call.profile.empty()},
+        {"--bake", !call.bake.empty()},
+    };
+    for (const auto& [flag, is_given] : of_a_cut) {
+        if (is_given)
+            return refuse(std::string(flag) + " belongs to a cut, and this is a model", "leave the flag out");
+    }
     auto model = files::read_model_file({call.job, call.unit_mm});
     if (!model) return std::unexpected(model.error());
     part.warnings = std::move(model->warnings);
@@ -210,7 +224,8 @@ FileResult<void> read_model(const FeelCall& call, Part& part) {
     if ((*surface)->is_sheet()) {
         char text[160];
         std::snprintf(text, sizeof text,
-                      "the surface is open: its front is where its normals point, its back %g mm behind",
+                      "%s open: its front is where its normals point, its back %g mm behind",
+                      (*surface)->is_solid() ? "some of the surface is" : "the surface is",
                       field::MeshField::kThicknessMm);
         part.warnings.push_back({call.job, 0, text});
     }
@@ -218,8 +233,9 @@ FileResult<void> read_model(const FeelCall& call, Part& part) {
         char text[200];
         std::snprintf(
             text, sizeof text,
-            "some triangles are turned over, so no side is the outside: the surface is felt from both "
-            "sides, as a skin of %.3g mm",
+            "%s, so no side is the outside: the surface is felt from both sides, as a skin of %.3g mm",
+            (*surface)->is_two_sided() ? "the surface is there with both sides"
+                                       : "some triangles are turned over",
             skin_mm);
         part.warnings.push_back({call.job, 0, text});
     }
@@ -278,8 +294,13 @@ FileResult<void> write_trace(const std::string& path, const std::vector<readers:
     return file->finish();
 }
 
-void print(const report::FeelStats& s, const std::vector<readers::FeelTraceRow>& trace,
+void print(const report::FeelStats& s, const Box3& part_mm, const std::vector<readers::FeelTraceRow>& trace,
            const std::string& out) {
+    const auto place = [](Vec3 p) {
+        return '(' + format_digits(p.x, 5) + ", " + format_digits(p.y, 5) + ", " + format_digits(p.z, 5) +
+               ')';
+    };
+    std::printf("%-16s from %s to %s mm\n", "part", place(part_mm.min).c_str(), place(part_mm.max).c_str());
     std::size_t touching = 0;
     for (const readers::FeelTraceRow& row : trace) touching += row.contact ? 1 : 0;
     std::printf("%-16s %llu at %g Hz, %zu in contact\n", "ticks", static_cast<unsigned long long>(s.ticks),
@@ -326,6 +347,11 @@ int feel(const FeelCall& call) {
         call.stiffness_n_per_mm ? call.stiffness_n_per_mm : part.job.haptics.stiffness_n_per_mm;
     const double surface_n_per_mm =
         stable_stiffness(asked, (*device)->limits(), call.rate_hz, call.arm, call.job, part.warnings);
+    if (!(*device)->has_motors() && (!call.arm.at_mm.empty() || call.arm.scale != 1)) {
+        const char* flag = call.arm.at_mm.empty() ? "--arm-scale" : "--arm-at";
+        part.warnings.push_back(
+            {call.job, 0, std::string(flag) + " says nothing without an arm: name one by --device"});
+    }
     report(part.warnings);
     FeelSource felt(call, part.job, surface_n_per_mm, start_s, (*device)->limits());
     if (part.surface) {
@@ -352,7 +378,7 @@ int feel(const FeelCall& call) {
         if (auto done = files::write_file(call.stats, report::feel_stats_json(stats)); !done)
             return report(done.error());
     }
-    print(stats, run.trace(), call.out);
+    print(stats, part.bounds_mm, run.trace(), call.out);
     felt.print();
     if (run.is_device_connected()) return kDone;
     report(Error{"", 0, 0, trouble.empty() ? "the arm is gone" : trouble, ""});

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "field/mesh/mesh_parts.hpp"
+#include "field/mesh/mesh_surfaces.hpp"
 
 namespace tribo::field {
 namespace {
@@ -23,10 +24,12 @@ Result<std::unique_ptr<MeshField>> MeshField::make(TriangleMesh mesh, double thi
     weld_exactly(mesh);
     std::erase_if(mesh.triangles, is_degenerate);
     if (!(area_mm2(mesh) > 0)) return fail("the model has no surface", "check that it holds triangles");
+    const bool two_sided = drop_twins(mesh);
+    part_at_crowded_edges(mesh);
     const MeshNormals normals(mesh);
     std::vector<MeshBody> bodies;
     double skin = 0;
-    if (normals.turned_edges() > 0) {
+    if (two_sided || normals.turned_edges() > 0) {
         const Box3 box = bounds(mesh);
         skin = std::min(thickness_mm, kSkinOfDiagonal * distance(box.min, box.max));
         bodies.emplace_back(std::move(mesh), 0, skin);
@@ -37,7 +40,7 @@ Result<std::unique_ptr<MeshField>> MeshField::make(TriangleMesh mesh, double thi
         for (MeshPart& part : parts_of(std::move(mesh), thickness_mm))
             bodies.emplace_back(std::move(part.mesh), part.is_closed ? 0 : thickness_mm, 0);
     }
-    return std::unique_ptr<MeshField>(new MeshField(std::move(bodies), skin));
+    return std::unique_ptr<MeshField>(new MeshField(std::move(bodies), skin, two_sided));
 }
 
 contact::SurfaceSample MeshField::sample(Vec3 p) const {
@@ -61,6 +64,10 @@ Box3 MeshField::bounds_mm() const {
 
 bool MeshField::is_sheet() const {
     return std::ranges::any_of(bodies_, &MeshBody::is_sheet);
+}
+
+bool MeshField::is_solid() const {
+    return skin_ == 0 && std::ranges::any_of(bodies_, [](const MeshBody& body) { return !body.is_sheet(); });
 }
 
 }  // namespace tribo::field

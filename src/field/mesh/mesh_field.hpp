@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A surface that was only read from a file, for a probe to touch. A closed mesh is a solid, an open mesh is a
-// sheet. A mesh whose triangles do not agree on a side is a skin.
+// sheet. A mesh whose triangles do not agree on a side, or that is there with both, is a skin.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,8 @@ namespace tribo::field {
 // The union of what the mesh holds: bodies may overlap, as modellers leave them, and closed and open ones may
 // be mixed (mesh_parts.hpp, mesh_body.hpp). A closed body that passes through itself is all that it winds
 // around (mesh_outside.hpp). The front of a sheet is the side to which its normals point (corners
-// counter-clockwise).
+// counter-clockwise). Triangles that are there twice count once, and where more than two meet at an edge
+// those that go on into each other are one surface (mesh_surfaces.hpp).
 //
 // Any number of threads; no allocation. Where bodies overlap a query asks up to kMostParts trees.
 class MeshField final : public contact::DistanceField {
@@ -39,14 +40,19 @@ class MeshField final : public contact::DistanceField {
     Box3 bounds_mm() const;
     // Some of it is.
     bool is_sheet() const;
+    bool is_solid() const;
+    // Of a skin: the surface was there with both sides.
+    bool is_two_sided() const { return two_sided_; }
     // 0: not a skin.
     double skin_mm() const { return skin_; }
 
   private:
-    MeshField(std::vector<MeshBody> bodies, double skin_mm) : bodies_(std::move(bodies)), skin_(skin_mm) {}
+    MeshField(std::vector<MeshBody> bodies, double skin_mm, bool two_sided)
+        : bodies_(std::move(bodies)), skin_(skin_mm), two_sided_(two_sided) {}
 
     std::vector<MeshBody> bodies_;
     double skin_;
+    bool two_sided_;
 };
 
 }  // namespace tribo::field

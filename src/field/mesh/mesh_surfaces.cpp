@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+#include "field/mesh/mesh_surfaces.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+
+#include "field/mesh/triangles_apart.hpp"
+
+namespace tribo::field {
+namespace {
+
+// A triangle by its vertices in rising order, and whether it goes round them that way.
+struct Known {
+    std::array<std::uint32_t, 3> vertices;
+    bool rising;
+    std::uint32_t triangle;
+    auto key() const { return std::tie(vertices, rising, triangle); }
+};
+
+std::vector<Known> in_order(const TriangleMesh& mesh) {
+    std::vector<Known> all;
+    all.reserve(mesh.triangles.size());
+    for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
+        Triangle t = mesh.triangles[n];
+        std::ranges::rotate(t, std::ranges::min_element(t));
+        const bool rising = t[1] < t[2];
+        if (!rising) std::swap(t[1], t[2]);
+        all.push_back({t, rising, n});
+    }
+    std::ranges::sort(all, {}, &Known::key);
+    return all;
+}
+
+void keep(TriangleMesh& mesh, const std::vector<bool>& kept) {
+    std::size_t count = 0;
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+        if (kept[n]) mesh.triangles[count++] = mesh.triangles[n];
+    }
+    mesh.triangles.resize(count);
+}
+
+// An edge of a triangle, by its ends in rising order.
+struct Side {
+    std::uint32_t low, high;
+    bool forward;
+    std::uint32_t triangle, edge;
+    auto ends() const { return std::tie(low, high); }
+    auto key() const { return std::tie(low, high, triangle, edge); }
+};
+
+std::vector<Side> sides_of(const TriangleMesh& mesh) {
+    std::vector<Side> all;
+    all.reserve(3 * mesh.triangles.size());
+    for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
+        for (std::uint32_t e = 0; e < 3; ++e) {
+            const std::uint32_t a = mesh.triangles[n][e], b = mesh.triangles[n][(e + 1) % 3];
+            all.push_back({std::min(a, b), std::max(a, b), a < b, n, e});
+        }
+    }
+    std::ranges::sort(all, {}, &Side::key);
+    return all;
+}
+
+}  // namespace
+
+bool drop_twins(TriangleMesh& mesh) {
+    const std::vector<Known> all = in_order(mesh);
+    std::vector<bool> one(mesh.triangles.size()), rest(mesh.triangles.size());
+    bool any = false;
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+        bool falling = false, rising = false;
+        for (; end < all.size() && all[end].vertices == all[first].vertices; ++end)
+            (all[end].rising ? rising : falling) = true;
+        one[all[first].triangle] = true;
+        rest[all[first].triangle] = !(falling && rising);
+        any = any || (falling && rising);
+    }
+    TriangleMesh open = mesh;
+    if (any) keep(open, rest);
+    if (any && !open.triangles.empty() && is_watertight(open)) {
+        mesh = std::move(open);
+        return false;
+    }
+    keep(mesh, one);
+    return any;
+}
+
+void part_at_crowded_edges(TriangleMesh& mesh) {
+    const std::vector<Side> all = sides_of(mesh);
+    // The corners of triangles, 3 n + k, that are one vertex.
+    std::vector<std::uint32_t> same(3 * mesh.triangles.size());
+    std::iota(same.begin(), same.end(), 0U);
+    const auto root = [&](std::uint32_t n) {
+        while (same[n] != n) n = same[n] = same[same[n]];
+        return n;
+    };
+    const auto corner_at = [&](const Side& s, std::uint32_t vertex) {
+        return 3 * s.triangle + (mesh.triangles[s.triangle][s.edge] == vertex ? s.edge : (s.edge + 1) % 3);
+    };
+    const auto connect = [&](const Side& a, const Side& b) {
+        for (const std::uint32_t vertex : {a.low, a.high}) {
+            const std::uint32_t one = root(corner_at(a, vertex)), other = root(corner_at(b, vertex));
+            same[std::max(one, other)] = std::min(one, other);
+        }
+    };
+    const auto normal = [&](const Side& s) {
+        return normalized(twice_area(corners(mesh, mesh.triangles[s.triangle])), Vec3{});
+    };
+    bool crowded = false;
+    for (std::size_t first = 0, end = 0; first < all.size(); first = end) {
+        while (end < all.size() && all[end].ends() == all[first].ends()) ++end;
+        if (end - first == 2) connect(all[first], all[first + 1]);
+        if (end - first <= 2) continue;
+        crowded = true;
+        struct Pair {
+            double bend;
+            std::size_t a, b;
+            auto key() const { return std::tie(bend, a, b); }
+        };
+        std::vector<Pair> pairs;
+        for (std::size_t a = first; a < end; ++a) {
+            for (std::size_t b = a + 1; b < end; ++b) {
+                if (all[a].forward != all[b].forward)
+                    pairs.push_back({-dot(normal(all[a]), normal(all[b])), a, b});
+            }
+        }
+        std::ranges::sort(pairs, {}, &Pair::key);
+        std::vector<bool> taken(end - first);
+        for (const Pair& pair : pairs) {
+            if (taken[pair.a - first] || taken[pair.b - first]) continue;
+            taken[pair.a - first] = taken[pair.b - first] = true;
+            connect(all[pair.a], all[pair.b]);
+        }
+    }
+    if (!crowded) return;
+    TriangleMesh parted;
+    constexpr std::uint32_t kNone = 0xFFFFFFFF;
+    std::vector<std::uint32_t> number(same.size(), kNone);
+    for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
+        Triangle t;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            std::uint32_t& vertex = number[root(3 * n + k)];
+            if (vertex == kNone) {
+                vertex = static_cast<std::uint32_t>(parted.positions.size());
+                parted.positions.push_back(mesh.positions[mesh.triangles[n][k]]);
+            }
+            t[k] = vertex;
+        }
+        parted.triangles.push_back(t);
+    }
+    mesh = std::move(parted);
+}
+
+}  // namespace tribo::field
