@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
+#include "milling/tool/cutter_shape.hpp"
 #include "session/block_setup.hpp"
+#include "session/cut/mill_warnings.hpp"
 #include "session/random_cut.hpp"
 
 namespace tribo::session {
@@ -74,6 +76,46 @@ TEST(EnergyBalance, a_plunge_that_only_just_touches_has_rows) {
         EXPECT_NEAR(seconds, depth, row_mm / 512) << depth;  // at 1 mm/s
         EXPECT_NEAR(volume, math::kPi * 9 * depth, math::kPi * 9 * row_mm / 512) << depth;
         EXPECT_NEAR(*session.totals().energy_balance, 1, 0.03) << depth;
+    }
+}
+
+// Of a plunge the core takes its share of the circle without a force: torque and thrust are those of the
+// edges outside of it, ktc f (R^2 - r^2) / 2 and krc f (R - r) with f per turn, and no row makes up for it.
+TEST(EnergyBalance, leaves_out_what_the_core_moves_into) {
+    for (const milling::CutterKind kind : {milling::CutterKind::flat, milling::CutterKind::drill}) {
+        for (const double core : {0.0, 2.0, 5.0, 8.0, 9.5}) {
+            milling::Cutter cutter{.kind = kind, .diameter_mm = 10, .flutes = 3, .core_mm = core};
+            if (kind == milling::CutterKind::drill) {
+                cutter.point_deg = 120;
+                cutter.length_mm = 0;
+                ASSERT_TRUE(milling::make_profile(cutter));
+            }
+            MillSetup s = block_setup({{0, 0, -12}, {40, 40, 0}}, cutter, 0.2);
+            s.coefficients = {1000, 300, 200, 0, 0, 0};
+            motion::Move plunge = straight_cut({20, 20, 0.5}, {20, 20, -9}, 600);
+            plunge.line = 7;
+            add_cut(s, plunge);
+            double torque_nmm = 0, least = 1, most = 1, core_mm3 = 0, per_turn_mm = 0;
+            MillSession session(std::move(s), serial_for);
+            session.run({[&](const milling::CutRow& row, const milling::RowForce& force) {
+                             least = std::min(least, row.reconciled);
+                             most = std::max(most, row.reconciled);
+                             core_mm3 += row.core_mm3;
+                             torque_nmm = std::max(torque_nmm, force.peaks.mean_torque_nmm);
+                             per_turn_mm = row.feed.down_mm * cutter.flutes;
+                         },
+                         {}});
+            const double share = 1 - core * core / 100, missing = session.totals().removed_mm3 * (1 - share);
+            EXPECT_NEAR(torque_nmm, 1000 * per_turn_mm * 25 * share / 2, 0.01 * torque_nmm) << core;
+            // The point of the drill does not reach its whole diameter at once.
+            const double slack = kind == milling::CutterKind::drill ? 0.12 : 0.01;
+            EXPECT_NEAR(*session.totals().energy_balance, share, slack) << core;
+            EXPECT_NEAR(core_mm3, missing, slack * session.totals().removed_mm3) << core;
+            EXPECT_GT(least, 0.97) << core;
+            EXPECT_LT(most, 1.03) << core;
+            const Warnings said = warnings_of(session.totals(), "job.toml", "job.nc");
+            EXPECT_EQ(core > 0, !said.empty() && said[0].text.find("core_mm") != std::string::npos) << core;
+        }
     }
 }
 

@@ -20,6 +20,7 @@ struct CutRow {
     CutPose pose;             // in the middle, stock frame; its travel is that of the whole row
     Engagement engagement;    // in the middle
     double chip_mm3 = 0;      // the volume that the engagement cuts
+    double core_mm3 = 0;      // the volume that the cutter's core moves into, where it has no edges
     double removed_mm3 = 0;   // this row's share of the volume that the stock lost
     double reconciled = 1;    // factor on the chips: with it they fill the volume that the stock lost
     // Time and spindle.

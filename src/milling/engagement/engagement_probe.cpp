@@ -400,9 +400,14 @@ void EngagementProbe::each_part_of_profile(const CutPose& pose, double low, doub
             if (level && !(down > 0) && !travel.turns()) continue;
             double s0 = level ? part.s0 : part.at_height(z0), s1 = level ? part.s1 : part.at_height(z1);
             // Within the core nothing cuts.
-            if (part.at(s1).radius_mm <= core_mm_ && part.at(s0).radius_mm <= core_mm_) continue;
-            if (part.at(s0).radius_mm < core_mm_) s0 = s_at_radius(part, s0, s1, core_mm_);
-            if (part.at(s1).radius_mm < core_mm_) s1 = s_at_radius(part, s1, s0, core_mm_);
+            const bool inside0 = part.at(s0).radius_mm < core_mm_, inside1 = part.at(s1).radius_mm < core_mm_;
+            const bool touches0 = part.at(s0).radius_mm <= core_mm_,
+                       touches1 = part.at(s1).radius_mm <= core_mm_;
+            if (in_core_ ? !inside0 && !inside1 : touches0 && touches1) continue;
+            if (inside0 && !in_core_) s0 = s_at_radius(part, s0, s1, core_mm_);
+            if (inside1 && !in_core_) s1 = s_at_radius(part, s1, s0, core_mm_);
+            if (!inside0 && in_core_) s0 = s_at_radius(part, s1, s0, core_mm_);
+            if (!inside1 && in_core_) s1 = s_at_radius(part, s0, s1, core_mm_);
             if (s1 > s0) look(s0, s1);
         }
     }
@@ -416,12 +421,17 @@ void EngagementProbe::each_part(const field::CarvedView& stock, const CutPose& p
         each_part_of_profile(pose, low, high, look);
         return;
     }
+    const double bottom = profile_.bottom_end(), core = std::min(core_mm_, bottom);
+    const bool bottom_moves = low <= 0 && (pose.travel.down_mm > 0 || pose.travel.turns());
+    if (in_core_) {
+        if (bottom_moves && core > 0) look(0, core);
+        return;
+    }
     const double s0 = profile_.at_height(low), s1 = profile_.at_height(high);
-    const double corner = std::clamp(profile_.corner_end(), s0, s1), bottom = profile_.bottom_end();
+    const double corner = std::clamp(profile_.corner_end(), s0, s1);
     if (corner > s0) look(s0, corner);
     if (s1 > corner) look(corner, s1);
-    if (low <= 0 && bottom > core_mm_ && (pose.travel.down_mm > 0 || pose.travel.turns()))
-        look(core_mm_, bottom);
+    if (bottom_moves && bottom > core_mm_) look(core_mm_, bottom);
 }
 
 void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out) {
@@ -441,6 +451,12 @@ void EngagementProbe::measure(const field::CarvedView& stock, const CutPose& pos
         start(s0, s1, stock, pose);
     });
     finish();
+}
+
+void EngagementProbe::measure_core(const field::CarvedView& stock, const CutPose& pose, Engagement& out) {
+    in_core_ = true;
+    measure(stock, pose, out);
+    in_core_ = false;
 }
 
 bool EngagementProbe::touches(const field::CarvedView& stock, const CutPose& pose) {

@@ -23,6 +23,8 @@ class EngagementProbe {
     // small as 1e-3 R^2). The stock must not contain the cut that is being measured yet. Keeps scratch space:
     // one thread at a time; no allocation after the first calls.
     void measure(const field::CarvedView& stock, const CutPose& pose, Engagement& out);
+    // The same of the core, where the cutter has no edges: what it moves into is removed without a force.
+    void measure_core(const field::CarvedView& stock, const CutPose& pose, Engagement& out);
     // Returns true if the scout finds any contact at this pose.
     bool touches(const field::CarvedView& stock, const CutPose& pose);
 
@@ -72,6 +74,7 @@ class EngagementProbe {
     CutterProfile profile_;
     ContactScout scout_;
     double radius_mm_, core_mm_, length_mm_;
+    bool in_core_ = false;       // the core is measured, not the edges
     std::vector<Level> levels_;  // sorted by s, of one part of the profile: the bottom, or the lateral edge
     std::vector<MaterialArc> arcs_;
     std::vector<MeridianStretch> stretches_;  // scratch

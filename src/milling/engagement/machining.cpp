@@ -198,13 +198,21 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
         const Sweep& sweep = sweeps_[row.step];
         const Cutter& cutter = cutters_[sweep.step.cutter];
         EngagementProbe& probe = probes[sweep.step.cutter];
+        const auto measure = [&](const field::CarvedView& stock) {
+            row.core_mm3 = 0;
+            if (cutter.core_mm > 0) {
+                probe.measure_core(stock, row.pose, row.engagement);
+                row.core_mm3 = chip_mm3(cutter, row.engagement, row.pose.travel);
+            }
+            probe.measure(stock, row.pose, row.engagement);
+        };
         if (row.from > 0 && sweep.to == 1 && meets_itself(*sweep.step.move, cutter)) {
             const auto gone = make_sweep(cutter, motion::first_part(*sweep.step.move, row.from));
             std::vector<field::PendingShape> earlier = sweep.earlier;
             earlier.push_back({gone.get(), gone->bounds_mm().inflated(kMargin)});
-            probe.measure({stock_, earlier}, row.pose, row.engagement);
+            measure({stock_, earlier});
         } else {
-            probe.measure(before(sweep), row.pose, row.engagement);
+            measure(before(sweep));
         }
         row.chip_mm3 = chip_mm3(cutter, row.engagement, row.pose.travel);
     }
@@ -440,10 +448,10 @@ std::size_t Machining::run(std::span<const Step> steps, Machined& out) {
     return count;
 }
 
-// Reconciles the chips of each pass with the volume that the stock lost. The grid knows the volume to some
-// cells only. Therefore kRoughCells are added on both sides, so that the factor of a short pass tends to 1. A
-// difference up to kSlack is attributed to the rounding of the grid. Each pass is reconciled separately, so
-// that the result does not depend on the number of passes in a run.
+// Reconciles the chips of each pass, and what the core moves into, with the volume that the stock lost. The
+// grid knows the volume to some cells only. Therefore kRoughCells are added on both sides, so that the factor
+// of a short pass tends to 1. A difference up to kSlack is attributed to the rounding of the grid. Each pass
+// is reconciled separately, so that the result does not depend on the number of passes in a run.
 void Machining::reconcile(Machined& out) const {
     constexpr double kRoughCells = 100;
     constexpr double kSlack = 0.005;
@@ -453,14 +461,15 @@ void Machining::reconcile(Machined& out) const {
     for (std::size_t first = 0; first < out.row_count;) {
         const std::size_t step = out.rows[first].step;
         std::size_t last = first;
-        double chips = 0, lost = 0;
+        double swept = 0, lost = 0;
         for (std::size_t n = step; n < pass_end(step); ++n) lost += out.removed_mm3[n];
-        for (; last < out.row_count && out.rows[last].step == step; ++last) chips += out.rows[last].chip_mm3;
-        const double ratio = std::clamp((lost + rough) / (chips + rough), kLeast, kMost);
+        for (; last < out.row_count && out.rows[last].step == step; ++last)
+            swept += out.rows[last].chip_mm3 + out.rows[last].core_mm3;
+        const double ratio = std::clamp((lost + rough) / (swept + rough), kLeast, kMost);
         const double off = std::max(std::abs(ratio - 1) - kSlack, 0.0);
         for (; first < last; ++first) {
             CutRow& row = out.rows[first];
-            row.removed_mm3 = ratio * row.chip_mm3;
+            row.removed_mm3 = ratio * (row.chip_mm3 + row.core_mm3);
             row.reconciled = ratio > 1 ? 1 + off : 1 - off;
         }
     }

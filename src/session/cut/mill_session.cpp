@@ -296,6 +296,11 @@ class MillSession::Run {
         totals_.work_j += 1e-3 * p.mean_torque_nmm * turned_rad;
         totals_.shear_work_j += 1e-3 * (p.mean_torque_nmm - force.edge_torque_nmm) * turned_rad;
         totals_.chip_mm3 += row.chip_mm3;
+        totals_.core_mm3 += row.core_mm3;
+        if (row.core_mm3 > totals_.most_core_mm3) {
+            totals_.most_core_mm3 = row.core_mm3;
+            totals_.core_line = row.line;
+        }
         ++totals_.rows;
         totals_.chips.add(row, force.chip_mm, setup_.cutters[row.cutter]);
         if (sinks.row) sinks.row(row, force);

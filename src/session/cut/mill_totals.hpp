@@ -55,6 +55,9 @@ struct MillTotals : ForceTotals {
     // the stock; and the first line.
     double edgeless_mm3 = 0;
     int edgeless_line = 0;
+    // What cores moved into, where a cutter has no edges (CutRow::core_mm3); and the line of most of it.
+    double core_mm3 = 0, most_core_mm3 = 0;
+    int core_line = 0;
     // Work of the spindle, and the part from the shear coefficient: ktc times the volume of the chips. The
     // rest comes from the edge coefficients.
     double work_j = 0, shear_work_j = 0;

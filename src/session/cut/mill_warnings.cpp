@@ -50,6 +50,13 @@ Warnings warnings_of(const MillTotals& totals, const std::string& job, const std
                                 share + "no edge cuts " + rounded(totals.edgeless_mm3, 1) +
                                     " mm3 of it, first here, as when a tool is pulled back with its shank "
                                     "in the stock; give the true length of its edges"});
+        } else if (totals.core_mm3 > kMostOfIt * missing_mm3 && missing_mm3 > 0) {
+            warnings.push_back(
+                {program, totals.core_line,
+                 share + "the tool has no edges in its middle (core_mm), and " +
+                     rounded(totals.core_mm3, 10) +
+                     " mm3 that it goes down into are removed without a force, most of it here; "
+                     "leave core_mm out of a tool that cuts over centre"});
         } else {
             warnings.push_back(
                 {job, 0, share + "the force is off by about as much; try a finer --resolution"});
