@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "readers/tables/forces_csv.hpp"
 
+#include <cmath>
+
 #include "base/math.hpp"
 #include "readers/text/decimal_text.hpp"
 
@@ -21,6 +23,18 @@ void append_field(std::string& csv, Vec3 value, int decimals) {
     append_field(csv, value.x, decimals);
     append_field(csv, value.y, decimals);
     append_field(csv, value.z, decimals);
+}
+
+// A small value gets more decimals, so that it keeps four digits down to a millionth of these.
+void append_fine(std::string& csv, double value, int decimals) {
+    constexpr int kDigits = 4, kMore = 6;
+    const bool is_small = std::abs(value) < math::pow(10, kDigits - decimals);
+    append_field(csv, value, value != 0 && is_small ? decimals + kMore : decimals);
+}
+void append_fine(std::string& csv, Vec3 value, int decimals) {
+    append_fine(csv, value.x, decimals);
+    append_fine(csv, value.y, decimals);
+    append_fine(csv, value.z, decimals);
 }
 
 }  // namespace
@@ -49,11 +63,11 @@ void append_force_row(std::string& csv, const milling::CutRow& row, const millin
     append_field(csv, hull.entry_rad * kDegPerRad, kAngleDecimals);
     append_field(csv, hull.exit_rad * kDegPerRad, kAngleDecimals);
     append_field(csv, hull.axial_depth_mm, kLengthDecimals);
-    append_field(csv, force.mean_n, kForceDecimals);
-    append_field(csv, force.peak_n, kForceDecimals);
-    append_field(csv, force.peak_xy_n, kForceDecimals);
-    append_field(csv, 1e-3 * force.mean_torque_nmm, kTorqueDecimals);
-    append_field(csv, 1e-3 * force.peak_torque_nmm, kTorqueDecimals);
+    append_fine(csv, force.mean_n, kForceDecimals);
+    append_fine(csv, force.peak_n, kForceDecimals);
+    append_fine(csv, force.peak_xy_n, kForceDecimals);
+    append_fine(csv, 1e-3 * force.mean_torque_nmm, kTorqueDecimals);
+    append_fine(csv, 1e-3 * force.peak_torque_nmm, kTorqueDecimals);
     append_field(csv, row.removed_mm3, kVolumeDecimals);
     append_field(csv, row.duration_s(), kDurationDecimals);
     append_field(csv, row.reconciled, kFactorDecimals);
@@ -65,8 +79,8 @@ void append_force_row(std::string& csv, const milling::CutRow& row, const millin
             append_fixed(csv, *chatter->peak_displacement_mm, kDisplacementDecimals);
     }
     if (band != nullptr) {
-        append_field(csv, band->low_n, kForceDecimals);
-        append_field(csv, band->high_n, kForceDecimals);
+        append_fine(csv, band->low_n, kForceDecimals);
+        append_fine(csv, band->high_n, kForceDecimals);
     }
     csv += '\n';
 }

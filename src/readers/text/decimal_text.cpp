@@ -9,14 +9,17 @@
 namespace tribo::readers {
 namespace {
 
-constexpr std::array<std::uint64_t, 10> kPowerOfTen{
-    1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
+constexpr std::array<std::uint64_t, 16> kPowerOfTen = [] {
+    std::array<std::uint64_t, 16> powers{1};
+    for (std::size_t n = 1; n < powers.size(); ++n) powers[n] = 10 * powers[n - 1];
+    return powers;
+}();
 constexpr double kLargestPlain = 1e15;
 
 }  // namespace
 
 void append_fixed(std::string& text, double value, int decimals) {
-    assert(decimals >= 0 && decimals <= 9);
+    assert(decimals >= 0 && decimals < static_cast<int>(kPowerOfTen.size()));
     if (std::isnan(value)) {
         text += "nan";
         return;

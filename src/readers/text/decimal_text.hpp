@@ -6,7 +6,7 @@
 
 namespace tribo::readers {
 
-// Appends the value with exactly `decimals` digits after the point (0 to 9), rounded to nearest: -0.50. A
+// Appends the value with exactly `decimals` digits after the point (0 to 15), rounded to nearest: -0.50. A
 // value that rounds to zero has no sign. An absolute value from 1e15 on is written with an exponent:
 // 1.25e+20. Values that are not finite give nan, inf or -inf.
 void append_fixed(std::string& text, double value, int decimals);

@@ -62,5 +62,21 @@ TEST(ForcesCsv, WritesARowWithAFieldPerColumn) {
     EXPECT_EQ(csv, rigid + ",1.250000,0.037500000,150.25000,300.50000\n");
 }
 
+// A cutter of 0.1 mm with a chip of 0.1 um: the torque is less than what most cuts need decimals for.
+TEST(ForcesCsv, KeepsTheDigitsOfSmallForces) {
+    milling::CutRow row;
+    milling::ForcePeaks force;
+    force.mean_n = {0.012345678, -3.456789e-6, 0};
+    force.peak_n = {0.1, 0.099999, -1};
+    force.mean_torque_nmm = 3.456789e-5;
+    force.peak_torque_nmm = 0.25;
+    std::string csv;
+    append_force_row(csv, row, force);
+    EXPECT_NE(csv.find(",0.01234567800,-0.00000345679,0.00000,0.10000,0.09999900000,-1.00000,0.00000,"
+                       "0.00000003456789,0.00025000,"),
+              std::string::npos)
+        << csv;
+}
+
 }  // namespace
 }  // namespace tribo::readers
