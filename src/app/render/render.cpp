@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "app/exit.hpp"
 #include "app/interrupt.hpp"
@@ -12,6 +13,7 @@
 #include "app/progress.hpp"
 #include "app/render/render_outputs.hpp"
 #include "app/uncertain_flag.hpp"
+#include "base/text/decimal.hpp"
 #include "base/text/printable.hpp"
 #include "files/disk_source.hpp"
 #include "files/memory.hpp"
@@ -79,20 +81,32 @@ void print_chatter(const report::Summary& s) {
     std::printf("; the tool moves by %.3g mm at most\n", s.largest_displacement_mm.value_or(0));
 }
 
+// With one decimal; what is small keeps three digits.
+std::string shown(double value) {
+    if (value < 10) return format_digits(value, 3);
+    char text[40];
+    std::snprintf(text, sizeof text, "%.1f", value);
+    return text;
+}
+
 void print(const report::Summary& s, const files::OutputFolder& folder) {
     std::printf("%-16s %.1f s, cutting %.1f s\n", "time", s.duration_s, s.cutting_s);
     std::printf("%-16s %.1f mm\n", "path", s.path_mm);
-    std::printf("%-16s %.1f mm3 of %.1f mm3\n", "removed", s.removed_mm3, s.removed_mm3 + s.remaining_mm3);
+    std::printf("%-16s %s mm3 of %s mm3\n", "removed", shown(s.removed_mm3).c_str(),
+                shown(s.removed_mm3 + s.remaining_mm3).c_str());
     const report::ForceValue& peak = s.peak_force_n;
-    std::printf("%-16s mean %.1f N, peak %.1f N", "force", s.mean_force_n.value, peak.value);
+    std::printf("%-16s mean %s N, peak %s N", "force", shown(s.mean_force_n.value).c_str(),
+                shown(peak.value).c_str());
     if (s.uncertain_cases) {
-        std::printf(" (%.1f to %.1f N in 9 of 10 of %zu cases)\n", peak.low, peak.high, *s.uncertain_cases);
+        std::printf(" (%s to %s N in 9 of 10 of %zu cases)\n", shown(peak.low).c_str(),
+                    shown(peak.high).c_str(), *s.uncertain_cases);
     } else if (peak.value > 0) {
         std::printf(" (%.2g to %.2g times that)\n", peak.low / peak.value, peak.high / peak.value);
     } else {
         std::printf("\n");
     }
-    std::printf("%-16s %.2f N m, %.0f W\n", "peak torque", s.peak_torque_nm.value, s.peak_power_w.value);
+    std::printf("%-16s %s N m, %s W\n", "peak torque", shown(s.peak_torque_nm.value).c_str(),
+                shown(s.peak_power_w.value).c_str());
     if (s.tooth_passing_hz) std::printf("%-16s %.1f Hz\n", "tooth passing", *s.tooth_passing_hz);
     if (s.chatter) print_chatter(s);
     if (s.form_error)
