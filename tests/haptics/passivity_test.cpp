@@ -106,6 +106,29 @@ TEST(Passivity, gives_nothing_that_it_did_not_take) {
     EXPECT_NEAR(controller.lowest_energy_nmm(), -0.1, 1e-12);
 }
 
+// A force that a plugin makes from nothing, on a hand that rests: it gives hardly more than one tap may.
+TEST(Passivity, lets_a_force_from_nothing_end) {
+    for (const double force : {0.1, 0.5, 2.0, 10.0}) {
+        for (const double rate : {1000.0, 4000.0}) {
+            SimulatedHand hand(Stroke({{0, {0, 0, 30}}, {5, {0, 0, 30}}}), 1 / rate);
+            PassivityController controller;
+            HandReading reading;
+            Vec3 last, sent;
+            double given = 0, most = 0;
+            for (int n = 0; n < 5 * rate; ++n) {
+                hand.read(reading);
+                if (n > 0) given += dot(sent, reading.position_mm - last);
+                most = std::max(most, given);
+                last = reading.position_mm;
+                sent = controller.tick({0, 0, force}, reading.position_mm, true);
+                hand.write(sent);
+            }
+            // A tick's motion under the full force comes before the controller sees it.
+            EXPECT_LE(most, 0.1 + 0.03 * force) << force << " N at " << rate << " Hz";
+        }
+    }
+}
+
 TEST(Passivity, takes_a_place_that_flickers_between_two_steps_for_one) {
     PassivityController controller(0.05);
     controller.tick({0, 0, 1}, {0, 0, -1}, true);

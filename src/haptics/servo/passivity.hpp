@@ -3,7 +3,8 @@
 // received: the force is constant during a tick while the hand moves on. The observer sums the energy that
 // the hand has put in. When the hand moves away and the work of the next tick would exceed this energy, the
 // controller reduces the force. It never adds a force, so a coarse encoder cannot cause kicks, unlike damping
-// by a noisy speed. Only contact forces are counted: a cutting force is work of the machine. With a delay
+// by a noisy speed. A force that has moved the hand without taking anything from it before ends, too, while
+// the hand stands. Only contact forces are counted: a cutting force is work of the machine. With a delay
 // (loop_delay.hpp) the observer multiplies each motion by the force that was sent one delay earlier.
 #pragma once
 
