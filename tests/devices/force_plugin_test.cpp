@@ -47,6 +47,28 @@ TEST(ForcePlugin, says_why_a_library_is_none) {
     EXPECT_NE(refuses.error().text().find("NULL"), std::string::npos);
 }
 
+TEST(ForcePlugin, is_named_where_it_does_what_it_should_not) {
+    const auto none = ForcePlugin::open(FAKE_FORCE, 666);
+    ASSERT_FALSE(none.has_value());
+    EXPECT_NE(none.error().text().find("tribo_force_open threw"), std::string::npos);
+    Inner inner;
+    auto plugin = ForcePlugin::open(FAKE_FORCE, 1000);
+    ASSERT_TRUE(plugin.has_value()) << plugin.error().text();
+    (*plugin)->set_inner(inner);
+    haptics::HandReading hand;
+    hand.position_mm = {1, 0, -1};
+    EXPECT_EQ((*plugin)->render(hand, 0, 1e-3).contact_n, (Vec3{1, 0, 0}));
+    EXPECT_EQ((*plugin)->trouble(), "");
+    hand.position_mm = {1, 0, 1};
+    EXPECT_FALSE(is_finite((*plugin)->render(hand, 1e-3, 1e-3).contact_n));
+    EXPECT_NE((*plugin)->trouble().find("1 forces that are not finite"), std::string::npos);
+    hand.position_mm = {-1, 0, -1};
+    EXPECT_EQ((*plugin)->render(hand, 2e-3, 1e-3).contact_n, Vec3{});
+    EXPECT_NE((*plugin)->trouble().find("threw an exception"), std::string::npos);
+    hand.position_mm = {1, 0, -1};
+    EXPECT_EQ((*plugin)->render(hand, 3e-3, 1e-3).contact_n, Vec3{});
+}
+
 // What the docs print is what is built here.
 TEST(ForcePlugin, is_what_the_docs_say) {
     std::ostringstream docs, source;

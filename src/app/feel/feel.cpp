@@ -372,6 +372,7 @@ int feel(const FeelCall& call) {
         return interrupted_exit_code();
     const std::string trouble = (*device)->trouble();
     if (!trouble.empty()) stats.notes.push_back(trouble);
+    if (plugin && !plugin->trouble().empty()) stats.notes.push_back(plugin->trouble());
     stats.table = felt.table_figures();
     if (auto done = write_trace(call.out, run.trace()); !done) return report(done.error());
     if (!call.stats.empty()) {
