@@ -84,8 +84,9 @@ const char* words_of(int cause) {
             return "as its cable was pulled: plug it in";
         case kByDeadman:
             return "as the hand let go: hold it";
+        default:
+            return "and does not say why: press its force button";
     }
-    return "and does not say why: press its force button";
 }
 
 class ForceDimension final : public haptics::Device {
