@@ -248,6 +248,11 @@ TEST(Gltf, refuses_what_it_cannot_trust_and_says_why) {
         {"two binary chunks", [](Json& j) { j["buffers"].push_back({{"byteLength", 36}}); }, "more buffers"},
         {"another file", [](Json& j) { j["buffers"][0]["uri"] = "/etc/hostname"; },
          "another file, /etc/hostname"},
+        {"Draco", [](Json& j) { j["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
+         "packed by KHR_draco_mesh_compression"},
+        {"meshopt", [](Json& j) { j["extensionsRequired"] = {"KHR_x", "EXT_meshopt_compression"}; },
+         "packed by EXT_meshopt_compression"},
+        {"old", [](Json& j) { j["asset"]["version"] = "1.0"; }, "glTF 1.0"},
     };
     EXPECT_EQ(why(glb(one_triangle(), bytes_of(kCorners))), "read");
     for (const Bad& bad : cases) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "files/model/gltf_document.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "files/json/json.hpp"
@@ -11,6 +13,9 @@ namespace {
 // Real files have about a dozen levels of nesting. This many are far below the limit of any stack.
 constexpr int kDeepest = 100;
 constexpr std::size_t kMostBuffers = 1000;
+// Without these extensions other triangles would be read, or none.
+constexpr std::array<std::string_view, 3> kUnreadExtensions{
+    "KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"};
 
 // Returns the JSON chunk of a binary file, or a whole text file; none if the file is too short.
 std::string_view json_of(std::string_view bytes) {
@@ -31,15 +36,28 @@ Result<void> check_gltf_document(std::string_view bytes, const std::string& sour
     const std::string_view text = json_of(bytes);
     if (text.empty()) return refused("the glTF file is cut off", "export or copy it again");
     bool too_deep = false;
-    const auto buffers_only = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+    const auto some_keys = [&](int depth, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
         too_deep = too_deep || depth > kDeepest;
-        return !too_deep &&
-               (depth != 1 || event != nlohmann::json::parse_event_t::key || parsed == "buffers");
+        return !too_deep && (depth != 1 || event != nlohmann::json::parse_event_t::key ||
+                             parsed == "buffers" || parsed == "asset" || parsed == "extensionsRequired");
     };
-    const nlohmann::json document = nlohmann::json::parse(text, buffers_only, false);
+    const nlohmann::json document = nlohmann::json::parse(text, some_keys, false);
     if (too_deep) return refused("the glTF file nests too deeply", "export the model again");
     if (!document.is_object()) {
         return refused("the glTF file is not the JSON that it should be", "export or copy it again");
+    }
+    const auto asset = document.find("asset");
+    if (asset != document.end() && asset->is_object() && asset->contains("version") &&
+        (*asset)["version"].is_string() &&
+        (*asset)["version"].get_ref<const std::string&>().starts_with("1."))
+        return refused("the file is glTF 1.0, and 2.0 is read", "export the model as glTF 2.0");
+    const auto required = document.find("extensionsRequired");
+    if (required != document.end() && required->is_array()) {
+        for (const nlohmann::json& name : *required) {
+            if (std::ranges::find(kUnreadExtensions, name) == kUnreadExtensions.end()) continue;
+            return refused("the triangles are packed by " + name.get<std::string>() + ", which is not read",
+                           "export the model without it: no compression, no instancing");
+        }
     }
     const auto buffers = document.find("buffers");
     if (buffers == document.end() || !buffers->is_array()) return {};
