@@ -53,9 +53,10 @@ Result<void> check_gltf_document(std::string_view bytes, const std::string& sour
         return refused("the file is glTF 1.0, and 2.0 is read", "export the model as glTF 2.0");
     const auto required = document.find("extensionsRequired");
     if (required != document.end() && required->is_array()) {
-        for (const nlohmann::json& name : *required) {
+        for (const nlohmann::json& one : *required) {
+            const std::string name = one.is_string() ? one.get<std::string>() : std::string();
             if (std::ranges::find(kUnreadExtensions, name) == kUnreadExtensions.end()) continue;
-            return refused("the triangles are packed by " + name.get<std::string>() + ", which is not read",
+            return refused("the triangles are packed by " + name + ", which is not read",
                            "export the model without it: no compression, no instancing");
         }
     }
