@@ -284,50 +284,44 @@ std::optional<MeshTree::Nearest> MeshTree::nearest_kept(Vec3 point_mm, double re
     return best;
 }
 
-void MeshTree::visit_overlapping(const Box3& box, const std::function<void(std::uint32_t)>& visit) const {
+// Visits the triangles of all leaves whose boxes, and the boxes around them, meet what is asked for.
+template <class Meets, class Visit>
+void MeshTree::walk(const Meets& meets, const Visit& visit) const {
     std::array<std::uint32_t, kMaxDepth> waiting;
     std::size_t count = 0;
     for (std::uint32_t at = 0;;) {
         const Node& node = nodes_[at];
-        if (box.overlaps({wide(node.min), wide(node.max)})) {
+        if (meets(node)) {
             if (node.triangles == 0) {
                 waiting[count++] = node.first;
                 ++at;
                 continue;
             }
-            for (std::uint32_t i = node.first; i < node.first + node.triangles; ++i) {
-                const Corners& t = corners_[i];
-                Box3 own;
-                for (const Point3f& corner : {t.a, t.b, t.c}) own.include(wide(corner));
-                if (box.overlaps(own)) visit(t.triangle);
-            }
+            for (std::uint32_t i = node.first; i < node.first + node.triangles; ++i) visit(corners_[i]);
         }
         if (count == 0) return;
         at = waiting[--count];
     }
 }
 
+void MeshTree::visit_overlapping(const Box3& box, const std::function<void(std::uint32_t)>& visit) const {
+    walk([&](const Node& node) { return box.overlaps({wide(node.min), wide(node.max)}); },
+         [&](const Corners& t) {
+             Box3 own;
+             for (const Point3f& corner : {t.a, t.b, t.c}) own.include(wide(corner));
+             if (box.overlaps(own)) visit(t.triangle);
+         });
+}
+
 int MeshTree::winding(Vec3 p) const {
-    std::array<std::uint32_t, kMaxDepth> waiting;
-    std::size_t count = 0;
     int windings = 0;
-    for (std::uint32_t at = 0;;) {
-        const Node& node = nodes_[at];
-        if (axis_gap(p.x, node.min[0], node.max[0]) == 0 && axis_gap(p.y, node.min[1], node.max[1]) == 0 &&
-            p.z <= static_cast<double>(node.max[2])) {
-            if (node.triangles == 0) {
-                waiting[count++] = node.first;
-                ++at;
-                continue;
-            }
-            for (std::uint32_t i = node.first; i < node.first + node.triangles; ++i) {
-                const Corners& t = corners_[i];
-                windings += winding_above(p, wide(t.a), wide(t.b), wide(t.c));
-            }
-        }
-        if (count == 0) return windings;
-        at = waiting[--count];
-    }
+    walk(
+        [&](const Node& node) {
+            return axis_gap(p.x, node.min[0], node.max[0]) == 0 &&
+                   axis_gap(p.y, node.min[1], node.max[1]) == 0 && p.z <= static_cast<double>(node.max[2]);
+        },
+        [&](const Corners& t) { windings += winding_above(p, wide(t.a), wide(t.b), wide(t.c)); });
+    return windings;
 }
 
 Box3 MeshTree::bounds_mm() const {

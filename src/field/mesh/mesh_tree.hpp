@@ -79,6 +79,8 @@ class MeshTree {
     template <class Keeps>
     void search(Vec3 point_mm, Nearest& best, const Keeps& keeps) const;
     void search(Vec3 point_mm, Nearest& best) const;
+    template <class Meets, class Visit>
+    void walk(const Meets& meets, const Visit& visit) const;
     Nearest measure(Vec3 point_mm, const Corners& corners) const;
 
     std::vector<Node> nodes_;
