@@ -16,6 +16,9 @@ namespace {
 constexpr double kBeside = 1e-6, kFromEdge = 10;
 // Nearer to the outside than this a point tells no direction, mm.
 constexpr double kNoWay = 1e-6;
+// A mesh is a tangle if more pairs of triangles have to be tested than this and so many for each triangle, or
+// if more of them cross.
+constexpr std::size_t kMostPairs = 10'000'000, kPairsEach = 64, kMostSeams = 20'000, kSeamsEach = 2;
 
 struct Segment {
     Vec3 from, to;
@@ -125,20 +128,25 @@ MeshOutside::Side MeshOutside::side_at(const TriangleMesh& mesh, const MeshTree&
     return air_before ? Side::front : Side::back;
 }
 
-void MeshOutside::find_crossings(const TriangleMesh& mesh, const MeshTree& tree, std::vector<Seam>& seams) {
+// Returns false for a tangle.
+bool MeshOutside::find_crossings(const TriangleMesh& mesh, const MeshTree& tree, std::vector<Seam>& seams) {
     const double slack = 1e-2 * beside_mm_;
+    const std::size_t most_seams = kMostSeams + kSeamsEach * mesh.triangles.size();
+    std::size_t pairs_left = kMostPairs + kPairsEach * mesh.triangles.size();
     for (std::uint32_t one = 0; one < mesh.triangles.size(); ++one) {
+        if (pairs_left == 0 || seams.size() > most_seams) return false;
         const Facet a = facet(mesh, one);
         tree.visit_overlapping(box_of(a.at), [&](std::uint32_t other) {
-            if (other <= one) return;
+            if (other <= one || pairs_left == 0) return;
+            --pairs_left;
             Segment seam;
             const Meeting meeting = meeting_of(a, facet(mesh, other), slack, seam);
             if (meeting == Meeting::none) return;
             side_[one] = side_[other] = Side::crossed;
-            if (meeting == Meeting::along_seam && seams.size() < kMostSeams)
-                seams.push_back({seam.from, seam.to, {one, other}});
+            if (meeting == Meeting::along_seam) seams.push_back({seam.from, seam.to, {one, other}});
         });
     }
+    return true;
 }
 
 // Keeps the parts of the seams between crossings with further triangles that have both material and air
@@ -187,7 +195,7 @@ std::optional<MeshOutside> MeshOutside::of(const TriangleMesh& mesh, const MeshT
     found.beside_mm_ = kBeside * distance(box.min, box.max);
     found.side_.assign(mesh.triangles.size(), Side::front);
     std::vector<Seam> seams;
-    found.find_crossings(mesh, tree, seams);
+    if (!found.find_crossings(mesh, tree, seams)) return std::nullopt;
     if (std::ranges::none_of(found.side_, [](Side s) { return s == Side::crossed; })) return std::nullopt;
     std::vector<bool> near(mesh.positions.size());
     for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {

@@ -20,10 +20,9 @@ class MeshOutside {
     // within the material; or crossed by others, so that each place of it has to be looked at.
     enum class Side : std::uint8_t { front, back, within, crossed };
 
-    // Nothing if no triangle crosses another one. `tree` is that of the mesh. Of more than kMostSeams
-    // crossings the rest have no seam of their own: depths near them may be too large.
+    // Nothing if no triangle crosses another one, and of a tangle, in which each crosses many. `tree` is that
+    // of the mesh.
     static std::optional<MeshOutside> of(const TriangleMesh& mesh, const MeshTree& tree);
-    static constexpr std::size_t kMostSeams = 1 << 20;
 
     // Of a place on a triangle: at a corner or an edge a crossed neighbour counts.
     Side side(std::uint32_t triangle, TrianglePlace place) const {
@@ -45,7 +44,7 @@ class MeshOutside {
     class Outer;
 
     MeshOutside() = default;
-    void find_crossings(const TriangleMesh& mesh, const MeshTree& tree, std::vector<Seam>& seams);
+    bool find_crossings(const TriangleMesh& mesh, const MeshTree& tree, std::vector<Seam>& seams);
     void keep_outer(const TriangleMesh& mesh, const MeshTree& tree, const std::vector<Seam>& seams);
     Side side_at(const TriangleMesh& mesh, const MeshTree& tree, std::uint32_t triangle, Vec3 at) const;
 
