@@ -27,7 +27,7 @@ MeshPoint MeshDistance::describe_outside(Vec3 point_mm, MeshPoint found, Triangl
         found.normal = -found.normal;
         return found;
     }
-    if (side == MeshOutside::Side::crossed && winding(point_mm) == 0) {
+    if (winding(point_mm) == 0) {
         found.distance_mm = std::abs(found.distance_mm);
         found.normal = normalized(point_mm - found.point_mm, found.normal);
         return found;

@@ -221,7 +221,10 @@ MeshOutside::Place MeshOutside::nearest(const TriangleMesh& mesh, const MeshTree
         best.triangle = seam_triangle_[best.triangle];
     }
     const auto face = tree.nearest_kept(p, std::sqrt(best.at.squared_mm2), Outer(*this, mesh, tree));
-    if (face) best = *face;
+    if (face)
+        best = *face;
+    else if (!seams_)
+        best = tree.nearest(p);  // no place has been told from the others
     const Vec3 way = best.at.point_mm - p;
     const double far = std::sqrt(best.at.squared_mm2);
     if (far > kNoWay) return {best, way / far};

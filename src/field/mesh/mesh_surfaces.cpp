@@ -11,6 +11,9 @@
 namespace tribo::field {
 namespace {
 
+// Of more triangles at one edge only the first are connected: their pairs are tested.
+constexpr std::size_t kMostAtEdge = 64;
+
 // A triangle by its vertices in rising order, and whether it goes round them that way.
 struct Known {
     std::array<std::uint32_t, 3> vertices;
@@ -77,11 +80,13 @@ bool drop_twins(TriangleMesh& mesh) {
         rest[all[first].triangle] = !(falling && rising);
         any = any || (falling && rising);
     }
-    TriangleMesh open = mesh;
-    if (any) keep(open, rest);
-    if (any && !open.triangles.empty() && is_watertight(open)) {
-        mesh = std::move(open);
-        return false;
+    if (any) {
+        TriangleMesh open = mesh;
+        keep(open, rest);
+        if (!open.triangles.empty() && is_watertight(open)) {
+            mesh = std::move(open);
+            return false;
+        }
     }
     keep(mesh, one);
     return any;
@@ -120,8 +125,9 @@ void part_at_crowded_edges(TriangleMesh& mesh) {
             auto key() const { return std::tie(bend, a, b); }
         };
         std::vector<Pair> pairs;
-        for (std::size_t a = first; a < end; ++a) {
-            for (std::size_t b = a + 1; b < end; ++b) {
+        const std::size_t last = std::min(end, first + kMostAtEdge);
+        for (std::size_t a = first; a < last; ++a) {
+            for (std::size_t b = a + 1; b < last; ++b) {
                 if (all[a].forward != all[b].forward)
                     pairs.push_back({-dot(normal(all[a]), normal(all[b])), a, b});
             }

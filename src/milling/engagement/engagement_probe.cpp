@@ -400,14 +400,14 @@ void EngagementProbe::each_part_of_profile(const CutPose& pose, double low, doub
             if (level && !(down > 0) && !travel.turns()) continue;
             double s0 = level ? part.s0 : part.at_height(z0), s1 = level ? part.s1 : part.at_height(z1);
             // Within the core nothing cuts.
-            const bool inside0 = part.at(s0).radius_mm < core_mm_, inside1 = part.at(s1).radius_mm < core_mm_;
-            const bool touches0 = part.at(s0).radius_mm <= core_mm_,
-                       touches1 = part.at(s1).radius_mm <= core_mm_;
-            if (in_core_ ? !inside0 && !inside1 : touches0 && touches1) continue;
-            if (inside0 && !in_core_) s0 = s_at_radius(part, s0, s1, core_mm_);
-            if (inside1 && !in_core_) s1 = s_at_radius(part, s1, s0, core_mm_);
-            if (!inside0 && in_core_) s0 = s_at_radius(part, s1, s0, core_mm_);
-            if (!inside1 && in_core_) s1 = s_at_radius(part, s0, s1, core_mm_);
+            const double r0 = part.at(s0).radius_mm, r1 = part.at(s1).radius_mm;
+            if (in_core_ ? std::min(r0, r1) >= core_mm_ : std::max(r0, r1) <= core_mm_) continue;
+            const auto end_at_core = [&](double& s, double r, double opposite) {
+                if (in_core_ && r >= core_mm_) s = s_at_radius(part, opposite, s, core_mm_);
+                if (!in_core_ && r < core_mm_) s = s_at_radius(part, s, opposite, core_mm_);
+            };
+            end_at_core(s0, r0, s1);
+            end_at_core(s1, r1, s0);
             if (s1 > s0) look(s0, s1);
         }
     }

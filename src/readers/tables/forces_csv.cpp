@@ -28,8 +28,9 @@ void append_field(std::string& csv, Vec3 value, int decimals) {
 // A small value gets more decimals, so that it keeps four digits down to a millionth of these.
 void append_fine(std::string& csv, double value, int decimals) {
     constexpr int kDigits = 4, kMore = 6;
-    const bool is_small = std::abs(value) < math::pow(10, kDigits - decimals);
-    append_field(csv, value, value != 0 && is_small ? decimals + kMore : decimals);
+    double small = 1;
+    for (int n = kDigits; n < decimals; ++n) small /= 10;
+    append_field(csv, value, value != 0 && std::abs(value) < small ? decimals + kMore : decimals);
 }
 void append_fine(std::string& csv, Vec3 value, int decimals) {
     append_fine(csv, value.x, decimals);
