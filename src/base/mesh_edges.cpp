@@ -2,7 +2,8 @@
 #include "base/mesh_edges.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include "base/groups.hpp"
 
 namespace tribo {
 namespace {
@@ -15,35 +16,17 @@ struct Side {
     bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
 };
 
-// Sets of connected vertices (Tarjan 1975, by path halving).
-class Groups {
-  public:
-    explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-    std::uint32_t of(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
+// The number of sets that contain a marked vertex.
+std::uint64_t count(Groups& groups, const std::vector<bool>& marked) {
+    std::vector<bool> met(groups.size());
+    std::uint64_t sets = 0;
+    for (std::uint32_t i = 0; i < groups.size(); ++i) {
+        if (!marked[i] || met[groups.of(i)]) continue;
+        met[groups.of(i)] = true;
+        ++sets;
     }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = of(a);
-        b = of(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    // Returns the number of sets that contain a marked vertex.
-    std::uint64_t count(const std::vector<bool>& marked) {
-        std::vector<bool> met(parent_.size());
-        std::uint64_t sets = 0;
-        for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-            if (!marked[i] || met[of(i)]) continue;
-            met[of(i)] = true;
-            ++sets;
-        }
-        return sets;
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
+    return sets;
+}
 
 }  // namespace
 
@@ -76,8 +59,8 @@ MeshEdges describe_edges(const TriangleMesh& mesh) {
         on_rim[sides[first].low] = on_rim[sides[first].high] = true;
         rims.join(sides[first].low, sides[first].high);
     }
-    out.holes = rims.count(on_rim);
-    out.pieces = pieces.count(used);
+    out.holes = count(rims, on_rim);
+    out.pieces = count(pieces, used);
     return out;
 }
 

@@ -99,6 +99,22 @@ TEST(MeshSurfaces, that_end_at_a_closed_one_leave_it_closed) {
     }
 }
 
+// A book whose pages all meet at one edge: not every pair of them is looked at.
+TEST(MeshSurfaces, of_a_crowd_at_one_edge_take_no_time) {
+    TriangleMesh book;
+    book.positions = {{0, 0, 0}, {0, 0, 5}};
+    for (std::uint32_t n = 0; n < 200'000; ++n) {
+        const double angle = math::kTwoPi * n / 200'000;
+        book.positions.push_back(to_float({5 * math::cos(angle), 5 * math::sin(angle), 2}));
+        book.triangles.push_back(n % 2 == 0 ? Triangle{0, 1, n + 2} : Triangle{1, 0, n + 2});
+    }
+    const std::size_t pages = book.triangles.size();
+    EXPECT_FALSE(drop_twins(book));
+    part_at_crowded_edges(book);
+    EXPECT_EQ(book.triangles.size(), pages);
+    EXPECT_EQ(describe_edges(book).crowded, 0U);
+}
+
 TEST(MeshSurfaces, stay_as_they_are_where_two_meet_at_every_edge) {
     Draw draw(4, 0);
     for (const TriangleMesh& good :

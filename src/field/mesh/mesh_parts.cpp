@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <numeric>
 #include <utility>
+
+#include "base/groups.hpp"
 
 namespace tribo::field {
 namespace {
@@ -21,23 +22,15 @@ struct Component {
 
 // Numbers the components of the vertices from 0 in the order of the triangles.
 std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, std::size_t& count) {
-    std::vector<std::uint32_t> up(mesh.positions.size());
-    std::iota(up.begin(), up.end(), 0U);
-    const auto root = [&](std::uint32_t n) {
-        while (up[n] != n) n = up[n] = up[up[n]];
-        return n;
-    };
+    Groups connected(mesh.positions.size());
     for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t corner : {t[1], t[2]}) {
-            const std::uint32_t a = root(t[0]), b = root(corner);
-            up[std::max(a, b)] = std::min(a, b);
-        }
+        for (const std::uint32_t corner : {t[1], t[2]}) connected.join(t[0], corner);
     }
     constexpr std::uint32_t kNone = 0xFFFFFFFF;
     std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
     count = 0;
     for (const Triangle& t : mesh.triangles) {
-        const std::uint32_t top = root(t[0]);
+        const std::uint32_t top = connected.of(t[0]);
         if (number[top] == kNone) number[top] = static_cast<std::uint32_t>(count++);
         for (const std::uint32_t corner : t) number[corner] = number[top];
     }

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <tuple>
 
+#include "base/groups.hpp"
 #include "field/mesh/triangles_apart.hpp"
 
 namespace tribo::field {
@@ -95,19 +95,13 @@ bool drop_twins(TriangleMesh& mesh) {
 void part_at_crowded_edges(TriangleMesh& mesh) {
     const std::vector<Side> all = sides_of(mesh);
     // The corners of triangles, 3 n + k, that are one vertex.
-    std::vector<std::uint32_t> same(3 * mesh.triangles.size());
-    std::iota(same.begin(), same.end(), 0U);
-    const auto root = [&](std::uint32_t n) {
-        while (same[n] != n) n = same[n] = same[same[n]];
-        return n;
-    };
+    Groups same(3 * mesh.triangles.size());
     const auto corner_at = [&](const Side& s, std::uint32_t vertex) {
         return 3 * s.triangle + (mesh.triangles[s.triangle][s.edge] == vertex ? s.edge : (s.edge + 1) % 3);
     };
     const auto connect = [&](const Side& a, const Side& b) {
         for (const std::uint32_t vertex : {a.low, a.high}) {
-            const std::uint32_t one = root(corner_at(a, vertex)), other = root(corner_at(b, vertex));
-            same[std::max(one, other)] = std::min(one, other);
+            same.join(corner_at(a, vertex), corner_at(b, vertex));
         }
     };
     const auto normal = [&](const Side& s) {
@@ -147,7 +141,7 @@ void part_at_crowded_edges(TriangleMesh& mesh) {
     for (std::uint32_t n = 0; n < mesh.triangles.size(); ++n) {
         Triangle t;
         for (std::uint32_t k = 0; k < 3; ++k) {
-            std::uint32_t& vertex = number[root(3 * n + k)];
+            std::uint32_t& vertex = number[same.of(3 * n + k)];
             if (vertex == kNone) {
                 vertex = static_cast<std::uint32_t>(parted.positions.size());
                 parted.positions.push_back(mesh.positions[mesh.triangles[n][k]]);
