@@ -49,7 +49,7 @@ ForcePlugin::~ForcePlugin() {
     try {
         if (state_ != nullptr) close_(state_);
     } catch (...) {
-        // Its own state is lost; the trace is not.
+        has_thrown_ = true;  // after the last render(): the trace is kept
     }
 }
 
