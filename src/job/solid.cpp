@@ -82,7 +82,7 @@ Result<Solid> mesh_solid(TriangleMesh mesh, const std::string& file) {
     Solid solid;
     solid.mesh = **shape;
     const TriangleMesh& kept = solid.mesh->mesh();
-    solid.volume_mm3 = volume_mm3(kept);
+    solid.volume_mm3 = solid.mesh->volume_mm3();
     Hash hash;
     for (const auto& p : kept.positions) {
         for (const float v : p) hash.add(v);

@@ -9,6 +9,7 @@
 #include "base/math.hpp"
 #include "base/mesh_edges.hpp"
 #include "base/text/printable.hpp"
+#include "field/mesh/mesh_distance.hpp"
 #include "files/json/json.hpp"
 #include "job/program_tools.hpp"
 #include "job/words/tool_words.hpp"
@@ -213,6 +214,9 @@ void add_inner(Builder& b, const char* name, const Facts& inner) {
     b.facts.warnings.insert(b.facts.warnings.end(), inner.warnings.begin(), inner.warnings.end());
 }
 
+// A mesh whose places, counted once, differ by more than this share from its own volume overlaps itself.
+constexpr double kSameVolume = 1e-6;
+
 // Smaller or larger parts are rarely milled: their unit is probably wrong, mm.
 constexpr double kSmallestPartMm = 3, kLargestPartMm = 5000;
 
@@ -366,9 +370,12 @@ Facts describe(const readers::Model& model) {
     const bool closed = is_closed(mesh);
     b.json["closed"] = closed;
     if (closed) {
-        const double volume = volume_mm3(mesh);
+        const double of_mesh = volume_mm3(mesh);
+        const double volume = std::copysign(field::MeshDistance::of_solid(mesh).volume_mm3(), of_mesh);
+        const bool overlaps = std::abs(volume - of_mesh) > kSameVolume * std::abs(volume);
         b.json["volume_mm3"] = volume;
-        b.line("volume", number(volume) + " mm3");
+        b.line("volume",
+               number(volume) + " mm3" + (overlaps ? "; it overlaps itself, each place counts once" : ""));
     }
     add_edges(b, mesh, closed);
     b.facts.warnings = model.warnings;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "field/mesh/mesh_parts.hpp"
 #include "job/memory_source.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/job_toml.hpp"
@@ -68,8 +69,16 @@ TEST(Facts, of_a_model_have_the_promised_keys) {
     EXPECT_EQ(json["volume_mm3"], 8.0);
     EXPECT_EQ(json["pieces"], 1);
     EXPECT_EQ(json["warnings"], Json::parse("[\"c.stl: warning: odd\"]"));
+    readers::Model twice = cube;  // the second one half within the first
+    field::append(twice.mesh, cube.mesh);
+    for (std::size_t i = 8; i < 16; ++i) twice.mesh.positions[i][0] += 1;
+    const Facts once = describe(twice);
+    EXPECT_NEAR(Json::parse(once.json)["volume_mm3"].get<double>(), 12, 1e-9);
+    EXPECT_NE(aligned(once.lines).find("each place counts once"), std::string::npos);
     for (Triangle& t : cube.mesh.triangles) std::swap(t[1], t[2]);
-    EXPECT_NE(describe(cube).json.find("inside out"), std::string::npos);
+    const Facts turned = describe(cube);
+    EXPECT_EQ(Json::parse(turned.json)["volume_mm3"], -8.0);
+    EXPECT_NE(turned.json.find("inside out"), std::string::npos);
     cube.mesh.triangles.pop_back();
     const Facts open = describe(cube);
     const Json json_open = Json::parse(open.json);

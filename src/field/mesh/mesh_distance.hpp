@@ -44,6 +44,9 @@ class MeshDistance {
         return found;
     }
 
+    // Of a solid that passes through itself or holds bodies within others each place counts once; else that
+    // of the mesh.
+    double volume_mm3() const { return outside_ ? outside_->volume_mm3() : tribo::volume_mm3(mesh_); }
     // As in MeshTree.
     int winding(Vec3 point_mm) const { return tree_.winding(point_mm); }
 

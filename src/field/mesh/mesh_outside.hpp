@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The outside of a closed mesh that passes through itself.
+// The outside of a closed mesh that passes through itself, or has bodies within others.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ class MeshOutside {
     // within the material; or crossed by others, so that each place of it has to be looked at.
     enum class Side : std::uint8_t { front, back, within, crossed };
 
-    // Nothing if no triangle crosses another one, and of a tangle, in which each crosses many. `tree` is that
-    // of the mesh.
+    // Nothing if the whole mesh is outside with its front, and of a tangle, in which each triangle crosses
+    // many. `tree` is that of the mesh.
     static std::optional<MeshOutside> of(const TriangleMesh& mesh, const MeshTree& tree);
 
     // Of a place on a triangle: at a corner or an edge a crossed neighbour counts.
@@ -36,19 +36,28 @@ class MeshOutside {
     };
     Place nearest(const TriangleMesh& mesh, const MeshTree& tree, Vec3 point_mm) const;
 
+    // Of the material: each place counts once.
+    double volume_mm3() const { return volume_mm3_; }
+
   private:
     struct Seam {
         Vec3 from, to;
         std::uint32_t triangles[2];
     };
+    struct Crossings;
     class Outer;
 
     MeshOutside() = default;
-    bool find_crossings(const TriangleMesh& mesh, const MeshTree& tree, std::vector<Seam>& seams);
+    bool find_crossings(const TriangleMesh& mesh, const MeshTree& tree, Crossings& found);
+    void find_sides(const TriangleMesh& mesh, const MeshTree& tree);
     void keep_outer(const TriangleMesh& mesh, const MeshTree& tree, const std::vector<Seam>& seams);
+    void measure(const TriangleMesh& mesh, const MeshTree& tree, Crossings& found);
+    static Side side_from(const TriangleMesh& mesh, const MeshTree& tree, std::uint32_t triangle, Vec3 at,
+                          double beside_mm);
     Side side_at(const TriangleMesh& mesh, const MeshTree& tree, std::uint32_t triangle, Vec3 at) const;
 
     double beside_mm_ = 0;  // so far beside a triangle is one of its sides
+    double volume_mm3_ = 0;
     std::vector<Side> side_;
     std::vector<bool> near_crossed_;  // has a corner of a crossed triangle
     // Where two triangles cross, as far as that is outside: as triangles without an area, and one of the two.

@@ -20,23 +20,6 @@ struct Component {
     double volume_mm3 = 0;  // of a closed one
 };
 
-// Numbers the components of the vertices from 0 in the order of the triangles.
-std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, std::size_t& count) {
-    Groups connected(mesh.positions.size());
-    for (const Triangle& t : mesh.triangles) {
-        for (const std::uint32_t corner : {t[1], t[2]}) connected.join(t[0], corner);
-    }
-    constexpr std::uint32_t kNone = 0xFFFFFFFF;
-    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
-    count = 0;
-    for (const Triangle& t : mesh.triangles) {
-        const std::uint32_t top = connected.of(t[0]);
-        if (number[top] == kNone) number[top] = static_cast<std::uint32_t>(count++);
-        for (const std::uint32_t corner : t) number[corner] = number[top];
-    }
-    return number;
-}
-
 std::vector<Component> take_apart(const TriangleMesh& mesh, const std::vector<std::uint32_t>& number,
                                   std::size_t count) {
     std::vector<Component> all(count);
@@ -97,6 +80,22 @@ void append(TriangleMesh& to, const TriangleMesh& more) {
     to.positions.insert(to.positions.end(), more.positions.begin(), more.positions.end());
     for (const Triangle& t : more.triangles)
         to.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+}
+
+std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, std::size_t& count) {
+    Groups connected(mesh.positions.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t corner : {t[1], t[2]}) connected.join(t[0], corner);
+    }
+    constexpr std::uint32_t kNone = 0xFFFFFFFF;
+    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+    count = 0;
+    for (const Triangle& t : mesh.triangles) {
+        const std::uint32_t top = connected.of(t[0]);
+        if (number[top] == kNone) number[top] = static_cast<std::uint32_t>(count++);
+        for (const std::uint32_t corner : t) number[corner] = number[top];
+    }
+    return number;
 }
 
 std::vector<MeshPart> parts_of(TriangleMesh mesh, double thickness_mm) {

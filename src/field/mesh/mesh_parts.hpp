@@ -2,6 +2,7 @@
 // A mesh of several bodies, taken apart where they may cross.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "base/mesh.hpp"
@@ -22,6 +23,9 @@ struct MeshPart {
 // over comes into one part.
 std::vector<MeshPart> parts_of(TriangleMesh mesh, double thickness_mm);
 inline constexpr std::size_t kMostComponents = 4096, kMostParts = 16;
+
+// Returns for each vertex the number of its connected component, from 0 in the order of the triangles.
+std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, std::size_t& count);
 
 // Adds the triangles of another mesh, which is not connected to the first.
 void append(TriangleMesh& to, const TriangleMesh& more);

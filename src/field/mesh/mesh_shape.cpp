@@ -36,7 +36,7 @@ Result<std::unique_ptr<MeshShape>> MeshShape::make(TriangleMesh mesh) {
                         "close its holes in the program that made it");
         }
     }
-    const double volume = volume_mm3(mesh);
+    const double volume = tribo::volume_mm3(mesh);
     if (!(volume != 0)) return fail("the mesh encloses no volume", "check that it is a solid");
     if (volume < 0) {
         for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);

@@ -23,6 +23,8 @@ class MeshShape final : public Shape {
     void sample(const Lattice& lattice, float* out) const override;
 
     const TriangleMesh& mesh() const { return distance_->mesh(); }
+    // Each place within the solid counts once.
+    double volume_mm3() const { return distance_->volume_mm3(); }
 
   private:
     explicit MeshShape(TriangleMesh mesh)
