@@ -37,8 +37,7 @@ class Comparison {
 
     DeviationReport run(const ParallelFor& parallel) {
         measure_all(parallel);
-        if (report_.samples.empty()) return std::move(report_);
-        summarise();
+        if (!report_.samples.empty()) summarise();
         report_.rest = sharpest(by_height(1), 1);
         report_.gouge = sharpest(by_height(-1), -1);
         report_.scallop = sharpest(scallops(parallel), 1);

@@ -97,6 +97,31 @@ TEST(NearestDeviation, a_rib_cut_too_thin_on_one_side_is_gouged_by_as_much) {
     EXPECT_LT(report.rest.mm, 1e-6);
 }
 
+// No face of the design is in the blank: what was cut away or is left over is seen from the machined side.
+TEST(NearestDeviation, of_a_design_around_or_beside_the_blank_is_that_of_the_machined_side) {
+    const Box3 box{{0, 0, 0}, {40, kLength, 10}};
+    auto machined = box_field(box);
+    machined.carve(std::make_unique<field::BoxShape>(Box3{{18, -1, 4}, {22, 41, 11}}));
+    const auto compared_with = [&](double low, double high, double aside) {
+        const std::vector<Vec3> points = field::surface_points(machined, 100'000);
+        TriangleMesh mesh = prism({{0, 0}, {40, 0}, {40, 10}, {0, 10}}, {{0, 1, 2}, {0, 2, 3}});
+        for (Point3f& p : mesh.positions) {
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                p[axis] = static_cast<float>(p[axis] == 0 ? low : static_cast<double>(p[axis]) + high);
+            p[0] += static_cast<float>(aside);
+        }
+        const field::BoxShape blank(box);
+        return compare(machined, design_of(mesh), {.blank = &blank, .machined_mm = points});
+    };
+    for (const double larger : {0.005, 3.0}) {
+        const auto report = compared_with(-larger, larger, 0);
+        // The walls of the slot at half the height of the plate.
+        EXPECT_NEAR(report.gouge.mm, 5 + larger, 1e-4) << larger;
+        EXPECT_LT(report.rest.mm, 1e-6);
+    }
+    EXPECT_NEAR(compared_with(0, 0, 45).rest.mm, 45, 1e-4);
+}
+
 // A cut that ends at a face of the blank leaves a skin there: no material, whatever rounding says.
 TEST(NearestDeviation, a_skin_without_a_thickness_is_no_rest_but_a_thin_wall_is) {
     const auto designed = design_of(prism({{0, 0}, {40, 0}, {40, 10}, {0, 10}}, {{0, 1, 2}, {0, 2, 3}}));
