@@ -283,6 +283,46 @@ TEST(MillSession, reports_shank_holder_and_fixture) {
     EXPECT_FALSE(has(milling::CollisionKind::rapid_through_stock));
 }
 
+// Towards a fixture, however thin and however little of it is touched: where the cutter's edge, the shank or
+// the holder first comes to it.
+TEST(MillSession, reports_a_collision_where_it_begins) {
+    Cutter c = cutter(CutterKind::flat, 6);
+    c.length_mm = 5;
+    c.holder = {{8, 3}, {30, 20}};
+    for (const double thick : {0.01, 1.0, 20.0}) {
+        for (const double aside : {0.0, 2.5, 2.995}) {
+            MillSetup s = setup_of(c, {{0, 0, -20}, {60, 30, 0}}, 0.5, {feed({-30, 15, -3}, {90, 15, -3})});
+            const double edge_y = 15 + aside;
+            for (const Box3& box :
+                 {Box3{{40, edge_y, -20}, {40 + thick, 30, 1}}, Box3{{61, edge_y, 2.5}, {61 + thick, 30, 4}}})
+                s.fixtures.push_back(std::make_unique<field::BoxShape>(box));
+            MillSession session(std::move(s), serial_for);
+            ASSERT_TRUE(session.run({}));
+            const auto& found = session.totals().collisions;
+            ASSERT_GE(found.size(), 2u) << thick << ' ' << aside;
+            const auto first = [&](double radius) { return std::sqrt(radius * radius - aside * aside); };
+            for (const MillCollision& one : found) {
+                const bool is_tool = one.kind == milling::CollisionKind::tool_in_fixture;
+                EXPECT_NEAR(one.tip_mm.x, is_tool ? 40 - first(3) : 61 - first(4), 0.2)
+                    << thick << ' ' << aside;
+            }
+        }
+    }
+}
+
+// A wall 3 mm high that the shank, 8 mm wide from 5 mm above the tip on, runs into.
+TEST(MillSession, reports_a_shank_where_it_comes_to_the_stock) {
+    Cutter c = cutter(CutterKind::flat, 6);
+    c.length_mm = 5;
+    c.holder = {{8, 30}};
+    MillSession session(setup_of(c, {{0, 0, -20}, {60, 30, 0}}, 0.25, {feed({-30, 15, -8}, {90, 15, -8})}),
+                        serial_for);
+    ASSERT_TRUE(session.run({}));
+    const auto& found = session.totals().collisions;
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].tip_mm.x, -4, 0.5);
+}
+
 TEST(MillSession, stops_at_the_time_asked_for) {
     MillSetup s = setup_of(cutter(CutterKind::flat, 8), {{0, 0, -10}, {40, 30, 0}}, 0.25,
                            {feed({-10, 15, -3}, {50, 15, -3})});

@@ -12,9 +12,11 @@
 namespace tribo::milling {
 namespace {
 
-// An overlap of shank, holder or fixture counts from this depth on, because a shank as thick as its cutter
-// slides along the wall that the cutter left.
-constexpr double kClearance = 0.05;  // mm
+// An overlap of shank or holder with the stock counts from this depth on, mm, because a shank as thick as its
+// cutter slides along the wall that the cutter left. One with a fixture counts from where it is no rounding.
+constexpr double kClearance = 0.05, kTouch = 0.002;
+// A first contact is found to 2^-n of the move.
+constexpr int kContactHalvings = 12;
 // Largest numbers of steps and rows that are processed together, and of earlier sweeps of the same run that
 // may overlap one sweep. With more of them it is cheaper to carve them first.
 constexpr std::size_t kMostSteps = 64, kMostRowsAtOnce = 256, kMostPending = 16;
@@ -327,29 +329,49 @@ void Machining::find_contact(std::size_t number, Sweep& sweep) const {
     }
 }
 
+Collision Machining::first_contact(CollisionKind kind, std::size_t begin, std::size_t end, Vec3 place,
+                                   const std::function<bool(const motion::Move&)>& touches) const {
+    for (std::size_t step = begin; step < end; ++step) {
+        const motion::Move& move = *sweeps_[step].step.move;
+        if (!touches(move)) continue;
+        double free = 0, at = 1;
+        for (int n = 0; n < kContactHalvings; ++n) {
+            const double middle = 0.5 * (free + at);
+            (touches(motion::first_part(move, middle)) ? at : free) = middle;
+        }
+        return {step, kind, at, motion::pose_at(move, at).tip_mm};
+    }
+    // Only the common shape of joined steps touches, by less than its tolerance: where the tip is nearest.
+    Collision best{begin, kind, 0, {}};
+    double nearest = 1e300;
+    for (std::size_t step = begin; step < end; ++step) {
+        for (int n = 0; n <= 16; ++n) {
+            const Vec3 tip = motion::pose_at(*sweeps_[step].step.move, n / 16.0).tip_mm;
+            const double d = distance(tip, place);
+            if (d < nearest) nearest = d, best = {step, kind, n / 16.0, tip};
+        }
+    }
+    return best;
+}
+
 void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
     const motion::Move& move = *sweep.step.move;
-    // Reports where, on the steps from `number` to `end`, the tip is nearest to the place, for display in a
-    // picture.
-    const auto report = [&](CollisionKind kind, Vec3 place, std::size_t end) {
-        Collision best{number, kind, 0, {}};
-        double nearest = 1e300;
-        for (std::size_t step = number; step < end; ++step) {
-            for (int n = 0; n <= 16; ++n) {
-                const Vec3 tip = motion::pose_at(*sweeps_[step].step.move, n / 16.0).tip_mm;
-                const double d = distance(tip, place);
-                if (d < nearest) nearest = d, best = {step, kind, n / 16.0, tip};
-            }
-        }
-        sweep.collisions.push_back(best);
-    };
+    const Cutter& cutter = cutters_[sweep.step.cutter];
     for (const auto& fixture : fixtures_) {
         if (!sweep.owns_shape) break;
-        if (const auto place = field::shared_place(*sweep.shape, *fixture, kClearance))
-            report(CollisionKind::tool_in_fixture, *place, shape_end(number));
+        const auto place = field::shared_place(*sweep.shape, *fixture, kTouch);
+        if (!place) continue;
+        const auto touches = [&](const motion::Move& part) {
+            return field::shared_place(*make_sweep(cutter, part), *fixture, kTouch).has_value();
+        };
+        sweep.collisions.push_back(
+            first_contact(CollisionKind::tool_in_fixture, number, shape_end(number), *place, touches));
     }
-    for (const Cylinder& part : bodies_[sweep.step.cutter]) {
-        const auto solid = make_sweep(part.solid, raised(move, part.height_mm));
+    for (const Cylinder& body : bodies_[sweep.step.cutter]) {
+        const auto solid_of = [&](const motion::Move& part) {
+            return make_sweep(body.solid, raised(part, body.height_mm));
+        };
+        const auto solid = solid_of(move);
         // The shank follows the cutter: the volume that this shape and those before it remove is not an
         // obstacle.
         std::vector<field::PendingShape> gone;
@@ -358,11 +380,21 @@ void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
             if (sweeps_[n].owns_shape && sweeps_[n].bounds_mm.overlaps(reach))
                 gone.push_back({sweeps_[n].shape, sweeps_[n].bounds_mm});
         }
-        if (const auto place = field::CarvedView(stock_, gone).overlap(*solid, kClearance))
-            report(part.in_stock, *place, number + 1);
+        const field::CarvedView stock(stock_, gone);
+        if (const auto place = stock.overlap(*solid, kClearance)) {
+            const auto touches = [&](const motion::Move& part) {
+                return stock.overlap(*solid_of(part), kClearance).has_value();
+            };
+            sweep.collisions.push_back(first_contact(body.in_stock, number, number + 1, *place, touches));
+        }
         for (const auto& fixture : fixtures_) {
-            if (const auto place = field::shared_place(*solid, *fixture, kClearance))
-                report(CollisionKind::holder_in_fixture, *place, number + 1);
+            const auto place = field::shared_place(*solid, *fixture, kTouch);
+            if (!place) continue;
+            const auto touches = [&](const motion::Move& part) {
+                return field::shared_place(*solid_of(part), *fixture, kTouch).has_value();
+            };
+            sweep.collisions.push_back(
+                first_contact(CollisionKind::holder_in_fixture, number, number + 1, *place, touches));
         }
     }
 }

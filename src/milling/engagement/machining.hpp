@@ -2,6 +2,7 @@
 // Runs tool moves against the stock: engagement, removed volume and collisions.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -27,7 +28,7 @@ struct Step {
 struct Collision {
     std::size_t step;
     CollisionKind kind;
-    double at = 0;  // fraction of the elementary move
+    double at = 0;  // fraction of the elementary move where it begins
     Vec3 tip_mm;
 };
 
@@ -91,6 +92,10 @@ class Machining {
     void divide_rows_at_turns(Machined& out);
     void find_contact(std::size_t number, Sweep& sweep) const;
     void find_collisions(std::size_t number, Sweep& sweep) const;
+    // Of the steps from `begin` to `end` together, which touch at `place`: the step and the fraction of it at
+    // which they begin to. `touches` tells of a step, or of its beginning.
+    Collision first_contact(CollisionKind kind, std::size_t begin, std::size_t end, Vec3 place,
+                            const std::function<bool(const motion::Move&)>& touches) const;
     void reconcile(Machined& out) const;
 
     field::CarvedField& stock_;
