@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <gtest/gtest.h>
 
+#include "base/draw.hpp"
 #include "groove_field.hpp"
 #include "haptics/contact/field_contact.hpp"
 #include "haptics/servo/servo.hpp"
@@ -96,6 +97,16 @@ struct Loop {
     HandModel model;
 };
 
+SafetyLimits loose_limits(double tick_s) {
+    SafetyLimits limits;
+    limits.max_force_n = 50;
+    limits.slew_n_per_ms = 1e3;
+    limits.ramp_s = 0;
+    limits.tick_s = tick_s;
+    limits.max_speed_mm_per_s = 1e4;
+    return limits;
+}
+
 Truth tap(const Loop& loop) {
     const double tick_s = 1 / loop.rate_hz, down_s = 0.05 / loop.speed;
     Truth truth;
@@ -105,13 +116,7 @@ Truth tap(const Loop& loop) {
     DelayedHand hand(std::move(arm), static_cast<int>(std::round(loop.delay_s / tick_s)));
     const double stiffness = std::min(loop.stiffness, passive_stiffness_n_per_mm(tick_s, loop.told_s));
     Flat wall(stiffness, tick_s);
-    SafetyLimits limits;
-    limits.max_force_n = 50;
-    limits.slew_n_per_ms = 1e3;
-    limits.ramp_s = 0;
-    limits.tick_s = tick_s;
-    limits.max_speed_mm_per_s = 1e4;
-    Servo servo(hand, wall, limits, loop.told_s);
+    Servo servo(hand, wall, loose_limits(tick_s), loop.told_s);
     for (int n = 0; n < static_cast<int>(0.9 * loop.rate_hz); ++n) servo.tick(n * tick_s);
     truth.depth_mm /= truth.held_ticks;
     truth.force_n /= truth.held_ticks;
@@ -157,6 +162,55 @@ TEST(LoopDelay, other_hands_get_nothing_either) {
             }
         }
     }
+}
+
+// Presses that nobody planned: taps, a little way into the air, then a hold. However much the taps cost, the
+// wall is there again, and it does not flicker.
+TEST(LoopDelay, any_hold_after_any_taps_is_steady) {
+    constexpr int kHolds = 200;
+    int taps = 0, unsteady = 0, weak = 0;
+    for (int n = 0; n < kHolds; ++n) {
+        tribo::test::Draw draw(1, static_cast<std::uint64_t>(n));
+        const double asked = draw.one_of({0.2, 0.5, 1.0, 2.0, 5.0}), rate = draw.one_of({1000.0, 4000.0});
+        const double tick_s = 1 / rate, delay_s = draw.one_of({0.0, 0.0, 1e-3, 3e-3, 6e-3});
+        const double speed = draw.between(40, 300), depth = draw.between(0.5, 2);
+        std::vector<StrokePoint> way{{0, {0, 0, 5}}, {0.1, {0, 0, 5}}};
+        const auto go_to = [&](double z, double mm_per_s) {
+            const auto& [t, from] = way.back();
+            way.push_back({t + std::abs(from.z - z) / mm_per_s, {0, 0, z}});
+        };
+        for (int k = static_cast<int>(draw.between(0, 4)); k > 0; --k, ++taps) {
+            go_to(-depth, speed);
+            go_to(draw.between(0.3, 3), speed);
+        }
+        go_to(-1.5, draw.between(40, 300));
+        way.push_back({way.back().t_s + 0.8, way.back().position_mm});
+        const double end = way.back().t_s;
+        Truth truth;
+        DelayedHand hand(std::make_unique<Arm>(Stroke(way), tick_s, HandModel{}, truth),
+                         static_cast<int>(std::round(delay_s / tick_s)));
+        const double stiffness = std::min(asked, passive_stiffness_n_per_mm(tick_s, delay_s));
+        Flat wall(stiffness, tick_s);
+        Servo servo(hand, wall, loose_limits(tick_s), delay_s);
+        double least = 1e9, most = 0, depth_mm = 0, force_n = 0;
+        for (int k = 0; k < static_cast<int>(end * rate); ++k) {
+            const ServoTick tick = servo.tick(k * tick_s);
+            if (tick.now_s < end - 0.3) continue;
+            least = std::min(least, tick.force_n.z);
+            most = std::max(most, tick.force_n.z);
+            depth_mm -= tick.position_mm.z;
+            force_n += tick.force_n.z;
+        }
+        // A step of the encoder is felt, with a delay also as a speed to and fro of the predicted hand.
+        const double steps = delay_s > 0 ? 1 + 2 * 1.5 * (delay_s + 0.5 * tick_s) / 2e-3 : 1;
+        unsteady += most - least < 1.01 * stiffness * kQuantumMm * steps + 0.1 * most ? 0 : 1;
+        weak += force_n / depth_mm >= 0.9 * stiffness ? 0 : 1;
+        EXPECT_GE(force_n / depth_mm, 0.5 * stiffness) << n;
+    }
+    EXPECT_GT(taps, kHolds);
+    // A hand that came fast may have been given all that it may get before it is at rest.
+    EXPECT_LE(unsteady, kHolds / 100);
+    EXPECT_LE(weak, kHolds / 100);
 }
 
 TEST(LoopDelay, without_delay_the_hand_is_where_it_is) {

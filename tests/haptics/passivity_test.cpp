@@ -34,7 +34,7 @@ Tap tap(double stiffness, double rate_hz, double quantum_mm, bool controlled = t
     SimulatedHand hand(
         Stroke({{0, {0, 0, 2}}, {0.05, {0, 0, -1}}, {0.5, {0, 0, -1}}, {0.6, {0, 0, 3}}, {0.8, {0, 0, 3}}}),
         tick_s);
-    PassivityController controller(quantum_mm);
+    PassivityController controller(quantum_mm, 0, tick_s);
     HandReading reading;
     Tap result;
     Vec3 last_sent, last_true;
@@ -111,7 +111,7 @@ TEST(Passivity, lets_a_force_from_nothing_end) {
     for (const double force : {0.1, 0.5, 2.0, 10.0}) {
         for (const double rate : {1000.0, 4000.0}) {
             SimulatedHand hand(Stroke({{0, {0, 0, 30}}, {5, {0, 0, 30}}}), 1 / rate);
-            PassivityController controller;
+            PassivityController controller(0, 0, 1 / rate);
             HandReading reading;
             Vec3 last, sent;
             double given = 0, most = 0;

@@ -16,7 +16,8 @@ Servo::Servo(Device& device, ForceSource& source, const SafetyLimits& limits, do
     : device_(device),
       source_(source),
       safety_(limits),
-      passivity_(device.limits().resolution_mm, static_cast<int>(std::round(delay_s / limits.tick_s))),
+      passivity_(device.limits().resolution_mm, static_cast<int>(std::round(delay_s / limits.tick_s)),
+                 limits.tick_s),
       // A hand that does not yield stands where it was told, however late.
       ahead_(limits.tick_s, device.yields() ? delay_s : 0) {}
 
