@@ -14,6 +14,8 @@ Vec3 clamped(Vec3 v, double most) {
 
 // Speeds and forces beyond these are noise of a broken device or model; squares of them still are numbers.
 constexpr double kAbsurd = 1e9;
+// No hand is faster, mm/s: then a wrong position is behind it.
+constexpr double kFastestHand = 5000;
 
 bool is_sane(Vec3 v) {
     return std::abs(v.x) < kAbsurd && std::abs(v.y) < kAbsurd && std::abs(v.z) < kAbsurd;
@@ -65,9 +67,9 @@ Vec3 SafetyGuard::faulty(const SafetyInput& in, Fault now) {
     spring_ = fault_ticks_ == 0 ? 0.5 * spring_ : Vec3{};
     const Vec3 damping_before = fault_ticks_ == 0 ? Vec3{} : sent_;
     ++fault_ticks_;
-    // Neither a device that is silent nor a clock that jumped knows how fast the hand is.
-    const bool speed_known =
-        now != Fault::device_silent && now != Fault::clock_jump && is_sane(in.velocity_mm_per_s);
+    // A device that is silent or jumps and a clock that jumped do not know how fast the hand is.
+    const bool speed_known = now != Fault::device_silent && now != Fault::clock_jump &&
+                             length(in.velocity_mm_per_s) <= kFastestHand;
     if (fault_ticks_ == 1 || !speed_known) return spring_;
     const double most = limits_.slew_n_per_ms * limits_.tick_s * 1e3;
     const Vec3 damping = clamped(-limits_.damping_n_s_per_mm * in.velocity_mm_per_s, limits_.max_force_n);
