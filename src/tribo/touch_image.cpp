@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/text/decimal.hpp"
 #include "material/material_json.hpp"
 
 namespace tribo {
@@ -67,6 +68,11 @@ FileResult<TouchImage> read_touch_image(const std::string& material_file, int si
         touch.warnings.push_back({material_file, 0, "no width_mm: the image is taken to be 100 mm wide"});
     }
     touch.width_mm *= static_cast<double>(std::min(image.width, image.height)) / image.width;
+    if (image.width != image.height) {
+        touch.warnings.push_back({material_file, 0,
+                                  "the image is no square: its upper left one is taken, " +
+                                      format_decimal(touch.width_mm) + " mm wide"});
+    }
     touch.image = files::square_at(image, size_px);
     const files::Image heights = map ? files::square_at(*map, size_px) : touch.image;
     touch.relief = elastic::small_relief(heights.rgba, size_px, size_px, static_cast<float>(m.relief_slope));

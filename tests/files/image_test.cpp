@@ -236,6 +236,70 @@ TEST(JpegImage, of_inks_is_the_light_that_they_leave) {
     }
 }
 
+// An Exif block that says nothing but how the picture is to be turned.
+std::string exif_block(int orientation, bool big) {
+    const auto number = [&](unsigned value, int count) {
+        std::string out;
+        for (int n = 0; n < count; ++n)
+            out += static_cast<char>(value >> 8 * (big ? count - 1 - n : n) & 255U);
+        return out;
+    };
+    std::string block = std::string("Exif\0\0", 6) + (big ? "MM" : "II") + number(42, 2) + number(8, 4) +
+                        number(1, 2) + number(274, 2) + number(3, 2) + number(1, 4) +
+                        number(static_cast<unsigned>(orientation), 2) + number(0, 6);
+    const auto size = static_cast<unsigned>(block.size() + 2);
+    return std::string("\xff\xe1") + static_cast<char>(size >> 8U) + static_cast<char>(size & 255U) + block;
+}
+
+// By the words of the standard: where the first row and the first column of what is stored are shown.
+TEST(JpegImage, is_turned_as_the_camera_was_held) {
+    constexpr int kWide = 24, kHigh = 16;  // as it is shown
+    const auto scene = [](int x, int y) { return static_cast<std::uint8_t>(3 * x + 9 * y); };  // grey
+    struct Held {
+        int orientation;
+        bool rows_across, from_right, from_bottom;  // rows of what is stored stand upright; the first row
+                                                    // and column lie at the right or bottom
+    };
+    const Held all[] = {{1, false, false, false}, {2, false, true, false}, {3, false, true, true},
+                        {4, false, false, true},  {5, true, false, false}, {6, true, true, false},
+                        {7, true, true, true},    {8, true, false, true},  {9, false, false, false}};
+    for (const Held& held : all) {
+        const auto stored = [&](int column, int row, int) {
+            int x = held.rows_across ? row : column, y = held.rows_across ? column : row;
+            if (held.from_right) x = kWide - 1 - x;
+            if (held.from_bottom) y = kHigh - 1 - y;
+            return scene(x, y);
+        };
+        std::string bytes =
+            some_jpeg(3, false, held.rows_across ? kHigh : kWide, held.rows_across ? kWide : kHigh, stored);
+        bytes.insert(2, exif_block(held.orientation, held.orientation % 2 == 0));
+        const Result<Image> image = parse_image(bytes, "a.jpg");
+        ASSERT_TRUE(image) << image.error().cause;
+        ASSERT_EQ(image->width, kWide) << held.orientation;
+        ASSERT_EQ(image->height, kHigh);
+        for (int n = 0; n < 3 * kWide * kHigh; ++n) {
+            const int x = n / 3 % kWide, y = n / 3 / kWide;
+            ASSERT_NEAR(image->rgba[static_cast<std::size_t>(4 * (y * kWide + x) + n % 3)], scene(x, y), 8)
+                << held.orientation << ": " << x << ", " << y;
+        }
+    }
+}
+
+TEST(JpegImage, with_a_damaged_note_of_the_camera_is_shown_as_it_is_stored) {
+    const std::string plain = some_jpeg(3, false, 24, 16, smooth);
+    const std::string whole = exif_block(6, true);
+    for (std::size_t kept = 10; kept < whole.size(); ++kept) {
+        std::string block = whole.substr(0, kept);
+        block[2] = 0;
+        block[3] = static_cast<char>(kept - 2);
+        std::string bytes = plain;
+        bytes.insert(2, block);
+        const Result<Image> image = parse_image(bytes, "a.jpg");
+        ASSERT_TRUE(image) << kept << image.error().cause;
+        EXPECT_EQ(image->width == 24, kept < 30) << kept;
+    }
+}
+
 TEST(Image, that_is_cut_short_anywhere_is_refused) {
     const std::string png = some_png(6, 8, false, 20, 20, 7), jpeg = some_jpeg(3, false, 20, 20, smooth),
                       scans = some_jpeg(3, true, 20, 20, smooth);

@@ -6,6 +6,8 @@
 #include <jerror.h>
 #include <jpeglib.h>
 
+#include "files/image/orientation.hpp"
+
 namespace tribo::files {
 namespace {
 
@@ -13,6 +15,7 @@ namespace {
 // Cameras and editors write about ten.
 constexpr std::uint64_t kMostScanPixels = std::uint64_t{1} << 30;
 constexpr int kMostScans = 200;
+constexpr std::string_view kExif("Exif\0\0", 6);
 
 bool is_harmless(int warning) {
     return warning == JWRN_EXTRANEOUS_DATA || warning == JWRN_JFIF_MAJOR || warning == JWRN_TOO_MUCH_DATA;
@@ -27,6 +30,7 @@ struct Decoder {
     std::jmp_buf out;
     std::string cause;
     Image image;
+    int orientation = 1;
 
     ~Decoder() { jpeg_destroy_decompress(&jpeg); }
 
@@ -61,6 +65,14 @@ struct Decoder {
         pixel[3] = 255;
     }
 
+    int noted_orientation() const {
+        for (jpeg_saved_marker_ptr block = jpeg.marker_list; block != nullptr; block = block->next) {
+            const std::string_view data(reinterpret_cast<const char*>(block->data), block->data_length);
+            if (data.starts_with(kExif)) return exif_orientation(data.substr(kExif.size()));
+        }
+        return 1;
+    }
+
     bool decode(std::string_view bytes) {
         jpeg.err = jpeg_std_error(&errors);
         errors.error_exit = damaged;
@@ -71,7 +83,9 @@ struct Decoder {
         progress.progress_monitor = count_scans;
         jpeg.progress = &progress;
         jpeg_mem_src(&jpeg, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+        jpeg_save_markers(&jpeg, JPEG_APP0 + 1, 0xFFFF);
         jpeg_read_header(&jpeg, TRUE);
+        orientation = noted_orientation();
         if (!is_image_size(jpeg.image_width, jpeg.image_height)) {
             cause = too_large_image(jpeg.image_width, jpeg.image_height);
             return false;
@@ -100,7 +114,7 @@ struct Decoder {
 std::expected<Image, std::string> parse_jpeg(std::string_view bytes) {
     Decoder decoder;
     if (!decoder.decode(bytes)) return std::unexpected(std::move(decoder.cause));
-    return std::move(decoder.image);
+    return turned(std::move(decoder.image), decoder.orientation);
 }
 
 }  // namespace tribo::files

@@ -10,8 +10,8 @@
 
 namespace tribo::files {
 
-// Baseline and progressive, grey, colour and CMYK. A picture that is cut short or damaged is refused. The
-// orientation that a camera notes is not obeyed. An error is the cause, without file and remedy.
+// Baseline and progressive, grey, colour and CMYK. A picture that is cut short or damaged is refused. It is
+// turned as the camera notes, as browsers do. An error is the cause, without file and remedy.
 std::expected<Image, std::string> parse_jpeg(std::string_view bytes);
 
 }  // namespace tribo::files

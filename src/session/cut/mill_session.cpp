@@ -316,7 +316,8 @@ class MillSession::Run {
     void finish() {
         totals_.duration_s = end_s_;
         totals_.removed_mm3 = stock_.removed_mm3() - removed_earlier_mm3_;
-        totals_.remaining_mm3 = setup_.blank_volume_mm3 - stock_.removed_mm3();
+        // Where nothing is left the sums differ by their rounding.
+        totals_.remaining_mm3 = std::max(0.0, setup_.blank_volume_mm3 - stock_.removed_mm3());
         if (totals_.fed_mm3 > 0 && !setup_.engagement)
             totals_.energy_balance =
                 totals_.shear_work_j / (1e-3 * setup_.coefficients.ktc * totals_.fed_mm3);

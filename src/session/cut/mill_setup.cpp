@@ -129,7 +129,7 @@ void warn_of_passes_below_the_grid(const MillSetup& setup, const std::string& so
                             format_decimal(std::floor(1000 * sidestep) / 1000) +
                             " mm aside, less than two cells of " + format_decimal(setup.cell_mm) +
                             " mm: the ridges between are not resolved; try --resolution " +
-                            format_decimal(std::floor(finest / digit) * digit)});
+                            format_decimal(static_cast<float>(std::floor(finest / digit) * digit))});
 }
 
 }  // namespace

@@ -137,6 +137,30 @@ TEST(GcodeCompensation, TakesTheDiameterFromOptionsTableAndComments) {
     EXPECT_NEAR(aside("G41 D0"), 0, 1e-12);
 }
 
+// The wall behind an inside corner is cut from its beginning on; an outside corner and a tangent are as ever.
+TEST(GcodeCompensation, BeginsSquareToTheSecondBlockOnAFanuc) {
+    const auto begins = [](const std::string& moves, GcodeDialect dialect) {
+        GcodeOptions options;
+        options.dialect = dialect;
+        options.tools = {{1, 20}};
+        const Program program = program_of(
+            "G21 G90 G94 M3 S1000 F100\nG0 X-50 Y-20 Z0\nG41 D1\nG1 " + moves + "G40 X-90\n", options);
+        for (std::size_t i = 1; i < program.moves.size(); ++i)
+            expect_near(program.moves[i].start.tip_mm, program.moves[i - 1].end.tip_mm, 1e-9);
+        return program.moves.front().end.tip_mm;
+    };
+    const std::string inside = "X0 Y-20\nY30\n", oblique = "X0 Y0\nY30\n",
+                      arc = "X0 Y-20\nG3 X0 Y30 J25\nG1 ";
+    expect_near(begins(inside, GcodeDialect::linuxcnc), {-10, -10, 0}, 1e-9);
+    expect_near(begins(inside, GcodeDialect::fanuc), {-10, -20, 0}, 1e-9);
+    expect_near(begins(oblique, GcodeDialect::fanuc), {-10, 0, 0}, 1e-9);
+    expect_near(begins("X0 Y-20\nZ-1\nY30\n", GcodeDialect::fanuc), {-10, -20, 0}, 1e-9);
+    for (const GcodeDialect dialect : {GcodeDialect::linuxcnc, GcodeDialect::fanuc}) {
+        expect_near(begins(arc, dialect), {0, -10, 0}, 1e-9);
+        expect_near(begins("X0 Y-20\nY-60\n", dialect), {0, -10, 0}, 1e-9);
+    }
+}
+
 // T D=16 of Fusion is the whole diameter, or D corrects the wear alone: the contour tells.
 TEST(GcodeCompensation, TakesTheProgrammedPathWhereTheDiameterOfACommentDoesNotFit) {
     const auto milled = [](const std::string& moves, const std::string& more = "") {

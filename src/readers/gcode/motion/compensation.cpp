@@ -192,13 +192,14 @@ class Corner {
             entry.start = comp_.at;
             comp_.waiting.assign(1, along(entry, programmed));
         }
-        comp_.has_begun = true;
+        comp_.has_begun = comp_.is_entry = true;
         comp_.direction = contour.end_direction();
         comp_.curvature_per_mm = contour.curvature_per_mm();
         return {};
     }
 
     Result<void> join(const motion::Move& programmed, const Element& contour, Element moved) {
+        const bool from_entry = std::exchange(comp_.is_entry, false);
         const double side = comp_.left_mm < 0 ? -1 : 1;
         const double turn = turn_at_corner(contour);
         if (std::abs(turn) < kStraightRad) {
@@ -206,6 +207,9 @@ class Corner {
         } else if (side * turn < 0) {
             if (auto done = hand_out_all(); !done) return done;
             if (auto done = turn_about(contour.start, moved.start, turn, programmed); !done) return done;
+        } else if (from_entry && output_.options.dialect == GcodeDialect::fanuc) {
+            // Square to the start of the block behind it, whose whole length is then cut.
+            end_last_at(moved.start);
         } else if (auto done = cut_off(programmed, moved); !done) {
             return done;
         }
@@ -249,17 +253,22 @@ class Corner {
                     std::to_string(comp_.waiting.front().line) + " or this one",
                 "take a smaller cutter or leave out moves that are too short for it");
         }
-        motion::Move& first = comp_.waiting.front();
         comp_.last.set_end(*meets);
-        first.end.tip_mm = in_space(*meets, first.end.tip_mm[w_]);
+        end_last_at(*meets);
+        moved.set_start(*meets);
+        return {};
+    }
+
+    // The last move, and those along the tool axis after it.
+    void end_last_at(Point to) {
+        motion::Move& first = comp_.waiting.front();
+        first.end.tip_mm = in_space(to, first.end.tip_mm[w_]);
         if (first.arc) first.arc->turn_rad = std::abs(comp_.last.turn_rad);
         for (std::size_t i = 1; i < comp_.waiting.size(); ++i) {
             motion::Move& move = comp_.waiting[i];
-            move.start.tip_mm = in_space(*meets, move.start.tip_mm[w_]);
-            move.end.tip_mm = in_space(*meets, move.end.tip_mm[w_]);
+            move.start.tip_mm = in_space(to, move.start.tip_mm[w_]);
+            move.end.tip_mm = in_space(to, move.end.tip_mm[w_]);
         }
-        moved.set_start(*meets);
-        return {};
     }
 
     static constexpr std::size_t kMostWaiting = 1000, kMostKept = 10'000;
