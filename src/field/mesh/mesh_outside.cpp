@@ -238,8 +238,8 @@ void MeshOutside::find_sides(const TriangleMesh& mesh, const MeshTree& tree) {
 // By the divergence theorem over what is outside of each triangle. Where triangles lie on each other the
 // first one counts.
 void MeshOutside::measure(const TriangleMesh& mesh, const MeshTree& tree, Crossings& found) {
-    std::ranges::stable_sort(found.cuts, {}, &Crossings::Cut::triangle);
-    std::ranges::stable_sort(found.covered, {}, &Crossings::Covered::triangle);
+    std::ranges::sort(found.cuts, {}, &Crossings::Cut::triangle);
+    std::ranges::sort(found.covered, {}, &Crossings::Covered::triangle);
     const auto sign = [](Side side) { return side == Side::front ? 1 : side == Side::back ? -1 : 0; };
     const Vec3 origin = tree.bounds_mm().centre();
     const double fine_mm = kFinely * reach_of(tree.bounds_mm());
