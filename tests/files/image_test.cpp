@@ -238,7 +238,7 @@ TEST(JpegImage, of_inks_is_the_light_that_they_leave) {
 
 // An Exif block that says nothing but how the picture is to be turned.
 std::string exif_block(int orientation, bool big) {
-    const auto number = [&](unsigned value, int count) {
+    const auto number = [&](std::uint64_t value, int count) {
         std::string out;
         for (int n = 0; n < count; ++n)
             out += static_cast<char>(value >> 8 * (big ? count - 1 - n : n) & 255U);
@@ -246,7 +246,7 @@ std::string exif_block(int orientation, bool big) {
     };
     std::string block = std::string("Exif\0\0", 6) + (big ? "MM" : "II") + number(42, 2) + number(8, 4) +
                         number(1, 2) + number(274, 2) + number(3, 2) + number(1, 4) +
-                        number(static_cast<unsigned>(orientation), 2) + number(0, 6);
+                        number(static_cast<std::uint64_t>(orientation), 2) + number(0, 6);
     const auto size = static_cast<unsigned>(block.size() + 2);
     return std::string("\xff\xe1") + static_cast<char>(size >> 8U) + static_cast<char>(size & 255U) + block;
 }
