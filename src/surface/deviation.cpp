@@ -192,6 +192,7 @@ class Comparison {
         cubes.erase(rest.begin(), rest.end());
         std::ranges::sort(cubes, {}, [](const auto& cube) { return cube.second; });
         std::vector<std::size_t> kept;
+        kept.reserve(cubes.size());
         for (const auto& [cube, n] : cubes) kept.push_back(order[n]);
         order = std::move(kept);
     }
