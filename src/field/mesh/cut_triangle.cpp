@@ -82,6 +82,7 @@ double mean_over(const Corners& t, std::span<const Segment> cuts, const std::fun
             bottom = std::min(bottom, side.at(x));
             top = std::max(top, side.at(x));
         }
+        if (!(bottom < top)) continue;
         heights.clear();
         for (const Line& line : here) heights.push_back(std::clamp(line.at(x), bottom, top));
         std::ranges::sort(heights);
