@@ -201,6 +201,8 @@ TEST(Learning, refuses_what_holds_no_sound) {
     const std::vector<double> good = drawn(known_model(44100), 20000, 0.1, 1);
     std::vector<double> odd = good;
     odd[77] = std::nan("");
+    std::vector<double> huge = good;
+    huge[77] = -1e30;
     const struct {
         Recording recording;
         const char* cause;
@@ -209,6 +211,7 @@ TEST(Learning, refuses_what_holds_no_sound) {
                  {recorded(100, std::vector<double>(44100, 0.5)), "is silent"},
                  {recorded(100, {good.begin(), good.begin() + 4000}), "holds only"},
                  {recorded(100, odd), "no numbers"},
+                 {recorded(100, huge), "times full scale"},
                  {recorded(0, good), "speed of the finger"},
                  {recorded(-5, good), "speed of the finger"},
                  {recorded(100, good, 44100, 0), "force of the finger"},

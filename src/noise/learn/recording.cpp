@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/limits.hpp"
 #include "base/math.hpp"
 #include "base/text/decimal.hpp"
 
@@ -128,6 +129,10 @@ Result<PreparedRecording> prepare(const Recording& recording, double highpass_hz
             return refuse("holds samples that are no numbers", "record or convert it anew");
         peak = std::max(peak, std::abs(v));
     }
+    // Its voice would be louder than a material may be.
+    if (20 * math::log10(std::max(peak, 1e-300)) > kLimits.voice_level.range.max)
+        return refuse("holds a sample of " + format_decimal(static_cast<float>(peak)) + " times full scale",
+                      "record or convert it anew");
     const auto too_short = [&](double seconds) {
         return refuse("holds only " + format_decimal(std::round(1000 * seconds)) + " ms of sound",
                       "give at least " + format_decimal(kShortestS) + " s, better several seconds");
