@@ -15,8 +15,8 @@ namespace {
 // An overlap of shank or holder with the stock counts from this depth on, mm, because a shank as thick as its
 // cutter slides along the wall that the cutter left. One with a fixture counts from where it is no rounding.
 constexpr double kClearance = 0.05, kTouch = 0.002;
-// A first contact is found to 2^-n of the move.
-constexpr int kContactHalvings = 12;
+// A first contact is found to this fraction of its move.
+constexpr double kContactFraction = 1.0 / 4096;
 // Largest numbers of steps and rows that are processed together, and of earlier sweeps of the same run that
 // may overlap one sweep. With more of them it is cheaper to carve them first.
 constexpr std::size_t kMostSteps = 64, kMostRowsAtOnce = 256, kMostPending = 16;
@@ -331,11 +331,14 @@ void Machining::find_contact(std::size_t number, Sweep& sweep) const {
 
 Collision Machining::first_contact(CollisionKind kind, std::size_t begin, std::size_t end, Vec3 place,
                                    const std::function<bool(const motion::Move&)>& touches) const {
+    const bool is_one = end == begin + 1;
     for (std::size_t step = begin; step < end; ++step) {
         const motion::Move& move = *sweeps_[step].step.move;
-        if (!touches(move)) continue;
-        double free = 0, at = 1;
-        for (int n = 0; n < kContactHalvings; ++n) {
+        // Most begin where the move before was in contact, too.
+        if (touches(motion::first_part(move, kContactFraction))) return {step, kind, 0, move.start.tip_mm};
+        if (!is_one && !touches(move)) continue;
+        double free = kContactFraction, at = 1;
+        while (at - free > kContactFraction) {
             const double middle = 0.5 * (free + at);
             (touches(motion::first_part(move, middle)) ? at : free) = middle;
         }
@@ -356,16 +359,25 @@ Collision Machining::first_contact(CollisionKind kind, std::size_t begin, std::s
 
 void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
     const motion::Move& move = *sweep.step.move;
-    const Cutter& cutter = cutters_[sweep.step.cutter];
-    for (const auto& fixture : fixtures_) {
-        if (!sweep.owns_shape) break;
-        const auto place = field::shared_place(*sweep.shape, *fixture, kTouch);
-        if (!place) continue;
-        const auto touches = [&](const motion::Move& part) {
-            return field::shared_place(*make_sweep(cutter, part), *fixture, kTouch).has_value();
-        };
-        sweep.collisions.push_back(
-            first_contact(CollisionKind::tool_in_fixture, number, shape_end(number), *place, touches));
+    // `solid_of` a move is swept by it, `overlap` of a solid is a place of it in the obstacle.
+    const auto look = [&](CollisionKind kind, std::size_t end, const field::Shape& whole,
+                          const auto& solid_of, const auto& overlap) {
+        const std::optional<Vec3> place = overlap(whole);
+        if (!place) return;
+        const auto touches = [&](const motion::Move& part) { return overlap(*solid_of(part)).has_value(); };
+        sweep.collisions.push_back(first_contact(kind, number, end, *place, touches));
+    };
+    const auto look_in_fixtures = [&](CollisionKind kind, std::size_t end, const field::Shape& whole,
+                                      const auto& solid_of) {
+        for (const auto& fixture : fixtures_) {
+            look(kind, end, whole, solid_of,
+                 [&](const field::Shape& solid) { return field::shared_place(solid, *fixture, kTouch); });
+        }
+    };
+    if (sweep.owns_shape) {
+        look_in_fixtures(
+            CollisionKind::tool_in_fixture, shape_end(number), *sweep.shape,
+            [&](const motion::Move& part) { return make_sweep(cutters_[sweep.step.cutter], part); });
     }
     for (const Cylinder& body : bodies_[sweep.step.cutter]) {
         const auto solid_of = [&](const motion::Move& part) {
@@ -381,21 +393,9 @@ void Machining::find_collisions(std::size_t number, Sweep& sweep) const {
                 gone.push_back({sweeps_[n].shape, sweeps_[n].bounds_mm});
         }
         const field::CarvedView stock(stock_, gone);
-        if (const auto place = stock.overlap(*solid, kClearance)) {
-            const auto touches = [&](const motion::Move& part) {
-                return stock.overlap(*solid_of(part), kClearance).has_value();
-            };
-            sweep.collisions.push_back(first_contact(body.in_stock, number, number + 1, *place, touches));
-        }
-        for (const auto& fixture : fixtures_) {
-            const auto place = field::shared_place(*solid, *fixture, kTouch);
-            if (!place) continue;
-            const auto touches = [&](const motion::Move& part) {
-                return field::shared_place(*solid_of(part), *fixture, kTouch).has_value();
-            };
-            sweep.collisions.push_back(
-                first_contact(CollisionKind::holder_in_fixture, number, number + 1, *place, touches));
-        }
+        look(body.in_stock, number + 1, *solid, solid_of,
+             [&](const field::Shape& shape) { return stock.overlap(shape, kClearance); });
+        look_in_fixtures(CollisionKind::holder_in_fixture, number + 1, *solid, solid_of);
     }
 }
 

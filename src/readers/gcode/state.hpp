@@ -85,7 +85,7 @@ struct Nurbs {
 struct Compensation {
     bool is_on = false;
     bool has_begun = false;  // a move in the plane has reached the offset contour
-    bool is_entry = false;   // the last move was the first one
+    bool is_entry = false;   // the last move is a straight entry
     int code = 400;          // in tenths
     int line = 0;            // of that code
     double number = 0;       // its D, else the tool

@@ -161,6 +161,23 @@ TEST(GcodeCompensation, BeginsSquareToTheSecondBlockOnAFanuc) {
     }
 }
 
+// Fanuc refuses it; here the arc and the wall behind it are shortened, as ever.
+TEST(GcodeCompensation, AfterAnArcInTheFanucDialectStaysOnTheArc) {
+    const auto milled = [](GcodeDialect dialect) {
+        GcodeOptions options;
+        options.dialect = dialect;
+        options.tools = {{1, 4}};
+        return program_of(
+            "G21 G90 M3 S1000 F100\nG0 X-50 Y0 Z0\nG41 D1\nG3 X0 Y0 I25\nG1 X-10 Y30\nG40 X-90\n", options);
+    };
+    const Program program = milled(GcodeDialect::fanuc);
+    ASSERT_TRUE(program.moves.front().arc);
+    const motion::Move& arc = program.moves.front();
+    EXPECT_NEAR(distance(arc.end.tip_mm, arc.arc->centre_mm), distance(arc.start.tip_mm, arc.arc->centre_mm),
+                1e-9);
+    expect_near(arc.end.tip_mm, milled(GcodeDialect::linuxcnc).moves.front().end.tip_mm, 1e-12);
+}
+
 // T D=16 of Fusion is the whole diameter, or D corrects the wear alone: the contour tells.
 TEST(GcodeCompensation, TakesTheProgrammedPathWhereTheDiameterOfACommentDoesNotFit) {
     const auto milled = [](const std::string& moves, const std::string& more = "") {

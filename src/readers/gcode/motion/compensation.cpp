@@ -192,7 +192,8 @@ class Corner {
             entry.start = comp_.at;
             comp_.waiting.assign(1, along(entry, programmed));
         }
-        comp_.has_begun = comp_.is_entry = true;
+        comp_.has_begun = true;
+        comp_.is_entry = !contour.is_arc();
         comp_.direction = contour.end_direction();
         comp_.curvature_per_mm = contour.curvature_per_mm();
         return {};

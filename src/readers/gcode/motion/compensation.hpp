@@ -2,9 +2,9 @@
 // Cutter radius compensation, G40 to G42.1: the edge of the cutter follows the programmed contour (RS274/NGC
 // 3.5.10 and appendix B, with the entry move of LinuxCNC). The first move leads to the offset point at its
 // end. At an outside corner the centre turns about the corner; at an inside corner both moves are shortened
-// to their intersection; on a Fanuc control the first move then leads square to the start of the second one
-// (start-up at an inner side, operator's manual of the series 16/18/160/180). A contour that cannot be cut
-// without gouging is refused.
+// to their intersection; in the Fanuc dialect a straight first move then leads square to the start of the
+// second one (entry move of Allen-Bradley's 9/Series, 8520-MUM, chapter 21, whose codes are Fanuc's). A
+// contour that cannot be cut without gouging is refused.
 #pragma once
 
 #include "readers/gcode/command.hpp"
