@@ -26,8 +26,9 @@ class CarvedField final : public contact::DistanceField {
     static constexpr double kMarginCells = 2.37;
 
     // cell_mm > 0: the spacing of the grid. It limits which shapes can be found: a shape whose share of the
-    // surface is thinner than a cell may be missed, an error of at most cell^2 / (8 R) on a wall of radius R.
-    // It does not limit the accuracy of the rest.
+    // surface is thinner than a cell may be missed, an error of at most cell^2 / (8 R) on a wall of radius R;
+    // where two surfaces meet, a third one that takes a corner of less than a cell may be missed there. It
+    // does not limit the accuracy of the rest.
     CarvedField(std::unique_ptr<const Shape> blank, double cell_mm, ParallelFor parallel = serial_for);
 
     // Removes the volumes of the shapes from the material, one after the other (at most kMostAtOnce).
