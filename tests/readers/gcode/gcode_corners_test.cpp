@@ -28,6 +28,9 @@ TEST(GcodeCorners, round_and_cut_the_end_of_a_block) {
     EXPECT_NEAR(feed_mm(fanuc("G1 G36 R5 X40\nG39 R2 Y40\nX0\n")), feed_mm(round), 1e-9);
     // A chamfer may take the whole of a move.
     EXPECT_NEAR(feed_mm(fanuc("G1 X40\nY8 ,C8\nX0\n")), 40 + std::hypot(8, 8) + 32, 1e-9);
+    // Both are scaled with the path.
+    EXPECT_NEAR(feed_mm(fanuc("G51 X0 Y0 Z0 P2000\nG1 X40 ,R5\nY40 ,C2\nX0\nG50\n")), 2 * feed_mm(round),
+                1e-9);
     // Straight on there is no corner.
     EXPECT_NEAR(feed_mm(fanuc("G1 X40 ,R5\nX60\n")), 60, 1e-9);
 }

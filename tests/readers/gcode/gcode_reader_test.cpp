@@ -136,6 +136,24 @@ TEST(GcodeReader, DwellsInSeconds) {
     EXPECT_EQ(program.moves[0].line, 4);
 }
 
+TEST(GcodeReader, DwellsInMillisecondsOnFanucControlsWithoutADecimalPoint) {
+    GcodeOptions options;
+    options.dialect = GcodeDialect::fanuc;
+    const auto seconds = [&](const std::string& text) {
+        double sum = 0;
+        for (const motion::Move& move : program_of("G21 M3 S900 F90\nG0 X0 Y0 Z5\n" + text, options).moves)
+            sum += move.kind == MoveKind::dwell ? move.duration_s : 0;
+        return sum;
+    };
+    EXPECT_EQ(seconds("G4 P1500\n"), 1.5);
+    EXPECT_EQ(seconds("G4 P2.\n"), 2);
+    EXPECT_EQ(seconds("G4 P0.25\n"), 0.25);
+    EXPECT_EQ(seconds("#1=2.5\nG4 P[#1*1000.]\n"), 2.5);
+    EXPECT_EQ(seconds("G4 X0.5\n"), 0.5);
+    EXPECT_EQ(seconds("G82 Z-1 R1 P500\nX3\nG80\n"), 1);
+    EXPECT_EQ(seconds("G82 Z-1 R1 P.5\nX3\nG80\n"), 1);
+}
+
 TEST(GcodeReader, AppliesWorkOffsetsThatTheProgramSets) {
     const Program program = program_of(
         "G21 M3 F100\n"

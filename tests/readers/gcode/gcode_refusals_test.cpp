@@ -119,6 +119,7 @@ TEST(GcodeReader, RefusesWhatItDoesNotKnowWithItsPlace) {
         {ready + "G1 X9 ,R2\n", 3, 1, "the corner of line 3 is not followed"},
         {ready + "G1 X9 Z9 ,R2\nY9\n", 3, 1, "a corner at the end of a move that leaves the plane"},
         {ready + "G1 X9 ,R99\nY9\n", 3, 1, "the corner of 99 mm does not fit"},
+        {ready + "G51 X0 Y0 Z0 I2 J1 K1\nG1 X9 ,R2\nY9\n", 4, 8, "a corner is scaled differently"},
         {ready + "G0 X9 ,R2\n", 3, 8, "a corner (,R or ,C) without a feed move"},
         {ready + "G1 X9 ,X2\n", 3, 8, "a comma without R or C behind it"},
         {ready + "G1 X9 G36\nY9\n", 3, 7, "G36 without the size R"},

@@ -71,7 +71,14 @@ Result<std::optional<CornerSize>> corner_of(Command& command, const State& state
         return output.refuse(command.line(), code->column,
                              code_text('G', code->tenths) + " without the size R of its corner", "write R");
     }
-    const double size_mm = word->value * state.unit_mm;
+    // As the path is, it may be scaled (G51).
+    const auto scale = state.frame.scale_in(state.plane);
+    if (!scale) {
+        return output.refuse(command.line(), word->column,
+                             "a corner is scaled differently along the axes of its plane (G51)",
+                             "write it as moves, or take one scale");
+    }
+    const double size_mm = word->value * state.unit_mm * *scale;
     if (auto good = in_range(kLimits.coordinate, size_mm, command, *word, output); !good)
         return std::unexpected(good.error());
     if (size_mm == 0) return std::nullopt;

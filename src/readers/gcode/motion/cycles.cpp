@@ -261,8 +261,7 @@ class Run {
     Result<void> read_dwell() {
         const Word* word = command_.use('P');
         if (word == nullptr) return {};
-        const bool in_seconds = output_.options.dialect == GcodeDialect::linuxcnc;
-        const double seconds = in_seconds ? word->value : word->value / 1000;
+        const double seconds = dwell_s(*word, output_);
         if (auto good = in_range(kLimits.dwell, seconds, command_, *word, output_); !good) return good;
         state_.cycle.dwell_s = seconds;
         return {};

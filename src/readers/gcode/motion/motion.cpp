@@ -192,6 +192,11 @@ Result<void> apply_motion(Command& command, State& state, Output& output) {
                                              : move_at_feed(command, state, output);
 }
 
+double dwell_s(const Word& p, const Output& output) {
+    const bool in_milliseconds = output.options.dialect == GcodeDialect::fanuc && !p.has_point;
+    return in_milliseconds ? p.value / 1000 : p.value;
+}
+
 Result<void> dwell(double seconds, const Command& command, State& state, Output& output) {
     if (!state.knows_tip() || seconds == 0) return {};
     motion::Move move = new_move(motion::MoveKind::dwell, command, state);

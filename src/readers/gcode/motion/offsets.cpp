@@ -11,11 +11,10 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// G4: P in seconds, on a Fanuc control in milliseconds; X, U and S (Marlin) in seconds.
+// G4: P as of any dwell; X, U and S (Marlin) in seconds.
 Result<void> apply_dwell(Command& command, State& state, Output& output) {
-    const bool is_fanuc = output.options.dialect == GcodeDialect::fanuc;
     const Word* length = command.use('P');
-    const bool in_milliseconds = is_fanuc && length != nullptr;
+    const bool is_p = length != nullptr;
     for (const char letter : {'X', 'U', 'S'}) {
         if (length == nullptr) length = command.use(letter);
     }
@@ -25,7 +24,7 @@ Result<void> apply_dwell(Command& command, State& state, Output& output) {
         }
         return {};
     }
-    const double seconds = in_milliseconds ? length->value / 1000 : length->value;
+    const double seconds = is_p ? dwell_s(*length, output) : length->value;
     if (auto good = in_range(kLimits.dwell, seconds, command, *length, output); !good) return good;
     return dwell(seconds, command, state, output);
 }
