@@ -142,7 +142,7 @@ Result<motion::Program> parse_gcode(std::string_view bytes, const std::string& p
     gcode.refusals = options.refusals;
     // The last of a number wins there, the first of it here.
     for (auto tool = options.tools.rbegin(); tool != options.tools.rend(); ++tool) {
-        gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm});
+        gcode.tools.push_back({tool->number, tool->diameter_mm, tool->length_mm, tool->flutes});
     }
     gcode.missing_programs = options.missing_programs;
     if (!options.dialect && readers::looks_like_din_iso(bytes)) return parse_din_iso(bytes, gcode, sink);
@@ -258,6 +258,7 @@ FileResult<motion::Program> read_program(const FileSource& files, const Job& job
         motion::DeclaredTool tool;
         tool.number = cutter.number;
         tool.diameter_mm = cutter.diameter_mm;
+        tool.flutes = cutter.flutes;
         if (const auto known = length_mm.find(tool.number); known != length_mm.end())
             tool.length_mm = known->second;
         options.tools.push_back(tool);

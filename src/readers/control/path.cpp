@@ -248,10 +248,15 @@ double Path::clearing_radius_mm(double unit_of_program_mm, int line, double room
 }
 
 int Path::flutes() const {
-    for (const motion::DeclaredTool& declared : program.tools) {
-        if (declared.number == tool && declared.flutes > 0) return declared.flutes;
-    }
-    return 0;
+    const auto known = [](const auto& tools, int number) {
+        for (auto entry = tools.rbegin(); entry != tools.rend(); ++entry) {
+            if (entry->number == number && entry->flutes > 0) return entry->flutes;
+        }
+        return 0;
+    };
+    if (const int given = known(options.tools, tool); given > 0) return given;
+    if (const int declared = known(program.tools, tool); declared > 0) return declared;
+    return known(options.tools, 0);  // an unnumbered tool of the job stands for every one
 }
 
 void Path::change_tool(int number) {

@@ -112,7 +112,7 @@ class Path {
     // Its radius for cycles that clear an area, which have no path without one: as above, else by a comment,
     // else kAssumedRadiusMm, or half of the room where that is narrower, with a warning for each tool.
     double clearing_radius_mm(double unit_of_program_mm, int line, double room_mm = kOpenMm);
-    // Number of its teeth; 0: not known.
+    // Number of its teeth by the options, else by TOOL DEF; 0: not known.
     int flutes() const;
     // The tool `number` comes into the spindle. Its length is taken from the options, else from TOOL DEF of
     // the program.

@@ -32,11 +32,12 @@ constexpr std::string_view name_of(GcodeDialect dialect) {
     return dialect == GcodeDialect::fanuc ? "Fanuc" : "LinuxCNC";
 }
 
-// Data of a tool for cutter compensation and for machines with rotary axes in the head.
+// Data of a tool for cutter compensation, for feeds per tooth and for machines with rotary axes in the head.
 struct GcodeTool {
     int number = 0;  // 0: every tool that has no other entry
     double diameter_mm = 0;
     std::optional<double> length_mm{};  // from the spindle nose to the tip
+    int flutes = 0;                     // for feeds per tooth; 0: not known
 };
 
 struct GcodeOptions {
@@ -45,7 +46,7 @@ struct GcodeOptions {
     LengthUnit default_unit = LengthUnit::millimetre;  // until the first G20 or G21, with a warning
     double default_feed_mm_per_min = 0;        // for feed moves before the first F; 0: they are refused
     bool skip_deletable_blocks = true;         // blocks with a leading '/'
-    std::vector<GcodeTool> tools;              // for G41 and G42; they override the tools of the program
+    std::vector<GcodeTool> tools;              // they override the tools of the program
     const motion::Machine* machine = nullptr;  // for rotary words; motion::check accepts it
     // Receives all refusals of the program, each cause once, up to kMostRefusals: refused blocks are left out
     // then, and the first refusal is the result. Null: reading ends at the first.

@@ -136,6 +136,19 @@ TEST(HeidenhainLanguage, CountsFeedsPerTurn) {
     EXPECT_NEAR(called.moves[2].feed_mm_per_min, 90, 1e-9);
 }
 
+TEST(HeidenhainLanguage, CountsFeedsPerToothByTheToolsOfTheJob) {
+    GcodeOptions options;
+    options.tools = {{1, 10, {}, 4}};
+    const std::string text = after_start("TOOL CALL 1 Z S900 FZ0.05\nL X+5 M3 FAUTO\nL X+9 FZ0.1\n");
+    const motion::Program program = conversational(text, options);
+    ASSERT_EQ(program.moves.size(), 2u);
+    EXPECT_NEAR(program.moves[0].feed_mm_per_min, 4 * 0.05 * 900, 1e-9);
+    EXPECT_NEAR(program.moves[1].feed_mm_per_min, 4 * 0.1 * 900, 1e-9);
+    // A tool of the job without a number stands for every one that has no entry.
+    options.tools = {{0, 10, {}, 3}, {2, 6, {}, 2}};
+    EXPECT_NEAR(conversational(text, options).moves[1].feed_mm_per_min, 3 * 0.1 * 900, 1e-9);
+}
+
 TEST(HeidenhainLanguage, RetractsAlongTheTool) {
     const motion::Program program =
         conversational(after_start("L Z-5 F100\nL M140 MB 20 FMAX\nM140 MB MAX\nL Z+3 FMAX\nL X+5\n"));

@@ -177,6 +177,13 @@ TEST(Siemens, CompensatesTheRadiusInEveryPlane) {
                 feed_mm(flat), 1e-9);
 }
 
+TEST(Siemens, CountsFeedsPerToothByTheToolsOfTheJob) {
+    GcodeOptions options;
+    options.tools = {{1, 10, {}, 4}};
+    const motion::Program program = siemens("S900 M3\nG95 G1 X10 FZ=0.05\n", options);
+    EXPECT_NEAR(program.moves.back().feed_mm_per_min, 4 * 0.05 * 900, 1e-9);
+}
+
 TEST(Siemens, SplinesAndPolynomials) {
     // A cubic B-spline of four points is a Bezier curve.
     const motion::Program spline = siemens("F100\nBSPLINE X0 Y10\nX10 Y10\nX10 Y0\nG1 X20\n");
