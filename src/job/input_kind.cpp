@@ -64,6 +64,10 @@ FileResult<InputKind> kind_of_input(const FileSource& files, const std::string& 
 
 std::string likeness(std::string_view bytes, std::string_view name) {
     if (bytes.find_first_not_of(" \t\r\n") == std::string_view::npos) return "is empty";
+    if (const std::string other(readers::other_model_format(name)); !other.empty()) {
+        return "has the name of a " + other +
+               " model, which is not read: export it as STL, OBJ, PLY, VRML 2.0 or glTF";
+    }
     for (const Beginning& known : kBeginnings) {
         if (bytes.starts_with(known.bytes)) return std::string(known.likeness);
     }

@@ -5,9 +5,21 @@
 #include <cstdio>
 
 #include "app/options.hpp"
+#include "devices/arm/device_search.hpp"
 #include "haptics/servo/loop_delay.hpp"
 
 namespace tribo::app {
+
+CLI::Validator device_name(std::vector<std::string> hands) {
+    const auto check = [hands](std::string& name) -> std::string {
+        if (devices::is_arm(name) || std::ranges::find(hands, name) != hands.end()) return "";
+        std::string known;
+        for (const std::string& hand : hands) known += hand + ", ";
+        return "there is no device '" + name + "'; try " + known +
+               "auto, openhaptics, forcedimension, haply, falcon:FIRMWARE or serial:PORT";
+    };
+    return CLI::Validator(check, "");
+}
 
 void add_arm_flags(CLI::App& verb, ArmCall& call) {
     verb.add_option("--arm-at", call.at_mm,

@@ -13,6 +13,7 @@
 
 namespace CLI {
 class App;
+class Validator;
 }  // namespace CLI
 
 namespace tribo::app {
@@ -25,6 +26,8 @@ struct ArmCall {
     double delay_s() const { return 1e-3 * delay_ms; }
 };
 
+// Accepts the names of arms and of these hands that are simulated.
+CLI::Validator device_name(std::vector<std::string> hands);
 // `call` must live as long as the verb.
 void add_arm_flags(CLI::App& verb, ArmCall& call);
 // Stiffness of a surface: the requested one or 0.5 N/mm, limited by the stability of the arm and the delay.

@@ -31,6 +31,7 @@
 #include "files/model/model_file.hpp"
 #include "haptics/servo/simulated_hand.hpp"
 #include "job/loader.hpp"
+#include "readers/mesh/model.hpp"
 #include "readers/tables/feel_trace_csv.hpp"
 #include "readers/tables/stroke_csv.hpp"
 #include "report/feel_stats_json.hpp"
@@ -186,13 +187,6 @@ struct Part {
     Warnings warnings;
 };
 
-bool is_model(const std::string& file) {
-    std::string ending = std::filesystem::path(file).extension().string();
-    for (char& c : ending) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    constexpr std::string_view kEndings[] = {".wrl", ".vrml", ".stl", ".obj", ".ply", ".gltf", ".glb"};
-    return std::find(std::begin(kEndings), std::end(kEndings), ending) != std::end(kEndings);
-}
-
 FileResult<void> read_model(const FeelCall& call, Part& part) {
     const auto refuse = [&](std::string cause, std::string remedy) {
         return std::unexpected(FileFailure({call.job, 0, 0, std::move(cause), std::move(remedy)}));
@@ -331,7 +325,7 @@ int feel(const FeelCall& call) {
         plugin = std::move(*opened);
     }
     Part part;
-    if (auto read = is_model(call.job) ? read_model(call, part) : read_job(call, part); !read)
+    if (auto read = readers::model_format_of_name(call.job) ? read_model(call, part) : read_job(call, part); !read)
         return report(read.error());
     const std::string& profile = call.profile.empty() ? part.job.haptics.profile : call.profile;
     if (const auto checked = check_outputs({call.out, call.stats, call.bake}, {profile, call.source});

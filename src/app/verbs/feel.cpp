@@ -27,6 +27,7 @@ void add_feel(CLI::App& program, int& exit_code) {
         ->check(CLI::IsMember({"cut", "inspect"}));
     verb->add_option("--device", call->device,
                      "simulated: a hand that yields; playback: exactly on the stroke; or an arm's name")
+        ->check(device_name({"simulated", "playback"}))
         ->type_name("NAME");
     verb->add_option("--rate", call->rate_hz, "Ticks per second, 100 to 20000; 1000 if absent")
         ->check(within(kLimits.servo_rate))

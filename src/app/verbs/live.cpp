@@ -50,6 +50,7 @@ void add_live(CLI::App& program, int& exit_code) {
     add_uncertain(*verb, call->uncertain);
     verb->add_option("--device", call->device,
                      "auto, simulated, or the arm's name as `tribo devices` says it")
+        ->check(device_name({"simulated"}))
         ->capture_default_str();
     add_arm_flags(*verb, call->arm);
     verb->add_option("--audio", call->audio, "Who sounds: the page, this machine's loudspeaker, or nobody")

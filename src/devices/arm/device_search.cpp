@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "devices/arm/device_search.hpp"
 
+#include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <filesystem>
 #include <unistd.h>
@@ -57,6 +59,10 @@ std::string detail_of(const std::string& name) {
     return colon == std::string::npos ? std::string() : name.substr(colon + 1);
 }
 
+bool may_be_named(const std::string& arm) {
+    return arm == kOpenHaptics || arm == kFalcon || arm == kSerial;
+}
+
 // serial:/dev/ttyACM0@115200
 SerialArmOptions serial_options(const std::string& name, const Mounting& mounting) {
     SerialArmOptions options;
@@ -103,7 +109,14 @@ const std::vector<std::string>& arm_names() {
     return names;
 }
 
+bool is_arm(const std::string& name) {
+    return name == "auto" || std::ranges::any_of(arm_names(), [&](const std::string& each) {
+               return each == name || (may_be_named(each) && name.starts_with(each + ":"));
+           });
+}
+
 Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const Mounting& mounting) {
+    assert(is_arm(name));
     if (name == "auto") {
         for (const std::string& each : arm_names()) {
             // Other devices on serial ports are not opened.
@@ -112,14 +125,7 @@ Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const
         }
         return fail("no haptic arm was found", "run 'tribo devices' to see why, or use --device simulated");
     }
-    for (const std::string& each : arm_names()) {
-        const bool may_be_named = each == kOpenHaptics || each == kFalcon || each == kSerial;
-        if (each == name || (may_be_named && name.starts_with(each + ":")))
-            return open_one(name, mounting, {});
-    }
-    return fail(
-        "there is no device '" + name + "'",
-        "try simulated, playback, openhaptics, forcedimension, haply, falcon:FIRMWARE, serial:PORT or auto");
+    return open_one(name, mounting, {});
 }
 
 std::vector<ArmReport> search_arms() {

@@ -19,6 +19,8 @@ const std::vector<std::string>& arm_names();
 // ("openhaptics:Left Device"). A Falcon takes a firmware file ("falcon:novint.bin"). A serial arm needs its
 // port ("serial:/dev/ttyACM0@115200"). "auto" opens the first available arm. The error of an unknown name
 // lists the known names.
+// True for `auto` and the names of arms, also with a detail behind them: serial:/dev/ttyACM0.
+bool is_arm(const std::string& name);
 Result<std::unique_ptr<haptics::Device>> open_arm(const std::string& name, const Mounting& mounting);
 
 struct ArmReport {

@@ -14,7 +14,26 @@
 namespace tribo::readers {
 namespace {
 
-std::optional<ModelFormat> format_of_extension(std::string_view file) {
+// Formats that are common and not read, by the ending of the file.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kOthers{{{".3mf", "3MF"},
+                                                                                 {".step", "STEP"},
+                                                                                 {".stp", "STEP"},
+                                                                                 {".iges", "IGES"},
+                                                                                 {".igs", "IGES"},
+                                                                                 {".amf", "AMF"},
+                                                                                 {".dae", "COLLADA"},
+                                                                                 {".fbx", "FBX"},
+                                                                                 {".x3d", "X3D"},
+                                                                                 {".sat", "ACIS"}}};
+
+std::string_view ending_of(std::string_view file) {
+    const std::size_t dot = file.rfind('.');
+    return dot == std::string_view::npos ? std::string_view() : file.substr(dot);
+}
+
+}  // namespace
+
+std::optional<ModelFormat> model_format_of_name(std::string_view file) {
     constexpr std::array<std::pair<std::string_view, ModelFormat>, 7> extensions{{
         {".stl", ModelFormat::stl},
         {".obj", ModelFormat::obj},
@@ -24,15 +43,18 @@ std::optional<ModelFormat> format_of_extension(std::string_view file) {
         {".glb", ModelFormat::gltf},
         {".gltf", ModelFormat::gltf},
     }};
-    const std::size_t dot = file.rfind('.');
-    if (dot == std::string_view::npos) return std::nullopt;
     for (const auto& [extension, format] : extensions) {
-        if (equals_ignoring_case(file.substr(dot), extension)) return format;
+        if (equals_ignoring_case(ending_of(file), extension)) return format;
     }
     return std::nullopt;
 }
 
-}  // namespace
+std::string_view other_model_format(std::string_view file) {
+    for (const auto& [extension, format] : kOthers) {
+        if (equals_ignoring_case(ending_of(file), extension)) return format;
+    }
+    return {};
+}
 
 std::string_view name(ModelFormat format) {
     switch (format) {
@@ -55,7 +77,7 @@ std::optional<ModelFormat> detect_model_format(std::string_view bytes, std::stri
     if (looks_like_vrml(bytes)) return ModelFormat::vrml;
     if (looks_like_ply(bytes)) return ModelFormat::ply;
     if (looks_like_stl(bytes)) return ModelFormat::stl;
-    if (const auto by_name = format_of_extension(source_name)) return by_name;
+    if (const auto by_name = model_format_of_name(source_name)) return by_name;
     if (looks_like_obj(bytes)) return ModelFormat::obj;
     return std::nullopt;
 }
@@ -65,7 +87,9 @@ Result<Model> read_model(std::string_view bytes, const ModelOptions& options) {
         return fail_at(options.source_name, 0, 0, "the file is empty", "export the model again");
     const auto format = detect_model_format(bytes, options.source_name);
     if (!format) {
-        return fail_at(options.source_name, 0, 0, "not a model format that is known",
+        const std::string other(other_model_format(options.source_name));
+        return fail_at(options.source_name, 0, 0,
+                       other.empty() ? "not a model format that is known" : other + " models are not read",
                        "export the model as STL, OBJ, PLY, VRML 2.0 or glTF");
     }
     return read_model(bytes, *format, options);

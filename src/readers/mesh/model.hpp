@@ -75,6 +75,11 @@ struct Model {
     Warnings warnings;
 };
 
+// The format by the ending of a file's name.
+std::optional<ModelFormat> model_format_of_name(std::string_view file);
+// A well known format that is not read, by the ending of a file's name: STEP, 3MF, ...; else empty.
+std::string_view other_model_format(std::string_view file);
+
 // Detects the format by content, else by the extension of the name (OBJ has no magic number).
 std::optional<ModelFormat> detect_model_format(std::string_view bytes, std::string_view source_name);
 

@@ -271,7 +271,7 @@ void note_spindle(const Command& command, const State& state, Output& output) {
     } else if (state.spindle == Spindle::counter_clockwise) {
         if (output.first(Note::spindle_backwards)) {
             output.warn(command.line(),
-                        "feed move with the spindle turning backwards (M4): taken as a cut all the same");
+                        "feed move with the spindle turning backwards (M4): the cut is computed as with M3");
         }
     }
     if (!state.has_changed_tool && state.selected_tool != 0) {
