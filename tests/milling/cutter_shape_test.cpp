@@ -157,6 +157,7 @@ TEST(CutterShape, that_cannot_be_is_refused_with_its_key_and_the_cure) {
         {profile({{5, 0, 0}, {3, 0, 0}, {3, 1, 0}}), "turns back on itself"},
         {profile({{1, 0, 0}, {0, 2, 0}}), "vertex 2 on the axis"},
         {profile({{0.5, 0, -0.6}, {0.5, 4, 0}}), "crosses the axis"},
+        {profile({{0, 0, 0}, {0, 1, 0}, {2, 2, 0}}), "runs along the axis between (0, 0) and (0, 1)"},
         {profile({{1, 0, 0}, {2, 2, 0}}, 1), "length_mm ends below"},
         {profile(std::vector<ProfileVertex>(10'000)), "has 10000 vertices, more than 200"},
     };

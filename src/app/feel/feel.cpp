@@ -325,7 +325,8 @@ int feel(const FeelCall& call) {
         plugin = std::move(*opened);
     }
     Part part;
-    if (auto read = readers::model_format_of_name(call.job) ? read_model(call, part) : read_job(call, part); !read)
+    if (auto read = readers::model_format_of_name(call.job) ? read_model(call, part) : read_job(call, part);
+        !read)
         return report(read.error());
     const std::string& profile = call.profile.empty() ? part.job.haptics.profile : call.profile;
     if (const auto checked = check_outputs({call.out, call.stats, call.bake}, {profile, call.source});

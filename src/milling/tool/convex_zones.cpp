@@ -12,17 +12,21 @@ namespace {
 
 // A joint that turns by less (sine) counts as smooth.
 constexpr double kSmooth = 1e-9;
-// A normal with a smaller part across the axis is that of a level tangent.
-constexpr double kLevel = 1e-6;
+// So does a concave joint where either side lies beyond the tangent of the other by less, mm: the numbers of
+// a profile are rounded.
+constexpr double kBeyondMm = 2e-5;
+// A normal with a smaller part across the axis is that of a nearly level tangent.
+constexpr double kNearlyLevel = 0.2;
+// A joint that turns by less (sine) turns little.
+constexpr double kLittle = 0.1;
 // Points nearer than this to the start of a ray are the start, mm.
 constexpr double kNearMm = 1e-7;
 // Half of the shortest chord that is more than a touch, mm.
 constexpr double kTouchMm = 1e-4;
+// Farther than the end of any ray within a cutter, mm.
+constexpr double kNowhere = 1e6;
 // Up to this share of its radius from a concave arc the distance is the way to it.
 constexpr double kTrueShare = 0.5;
-// The ends of a concave arc are looked for from tangents, this far apart at most, rad. A zone with a level
-// end goes so little beyond it.
-constexpr double kTangentStep = 0.01;
 
 // A ray at s from 0: from + s * way, |way| = 1.
 struct Ray {
@@ -33,8 +37,9 @@ void take_nearer(double s, double& nearest) {
     if (s > kNearMm) nearest = std::min(nearest, s);
 }
 
-// Shortens `nearest` to the first point of the element on the ray.
-void meet(const Ray& ray, const ProfileElement& e, double& nearest) {
+// Shortens `nearest` to the first point of the element on the ray. `touch_mm`: half of the chord of an arc up
+// to which the ray stays inside.
+void meet(const Ray& ray, const ProfileElement& e, double touch_mm, double& nearest) {
     if (!e.is_arc()) {
         const double approach = dot(ray.way, e.from_normal);
         if (std::abs(approach) < 1e-14) return;
@@ -48,11 +53,11 @@ void meet(const Ray& ray, const ProfileElement& e, double& nearest) {
     const PlanePoint from = ray.from - e.centre;
     const double middle = -dot(from, ray.way);
     const double square = middle * middle - dot(from, from) + e.radius_mm * e.radius_mm;
-    // A ray that only touches the arc stays inside.
-    if (square < kTouchMm * kTouchMm) return;
+    if (square < touch_mm * touch_mm) return;
     for (const double s : {middle - std::sqrt(square), middle + std::sqrt(square)}) {
-        const double height = ray.from.z + s * ray.way.z;
-        if (height >= e.from.z && height <= e.to.z) take_nearer(s, nearest);
+        const PlanePoint at = ray.from + s * ray.way;
+        const bool faces_out = (at.r - e.centre.r) * e.radius_mm > -kNearMm;
+        if (faces_out && at.z >= e.from.z - kNearMm && at.z <= e.to.z + kNearMm) take_nearer(s, nearest);
     }
 }
 
@@ -62,14 +67,65 @@ PlanePoint along(PlanePoint normal) {
 }
 
 // Returns the point half way to where the straight continuation from `from` leaves the cutter; nothing if it
-// reaches the axis first, or does not rise or fall.
+// reaches the axis first, or does not rise or fall. `beyond` is the element behind the joint.
 std::optional<PlanePoint> half_way(const std::vector<ProfileElement>& elements, PlanePoint from,
-                                   PlanePoint way) {
+                                   PlanePoint way, const ProfileElement& beyond) {
     if (std::abs(way.z) < kSmooth) return std::nullopt;
-    double nearest = 1e6;
-    for (const ProfileElement& e : elements) meet({from, way}, e, nearest);
-    if (way.r < 0 && from.r + nearest * way.r <= 0) return std::nullopt;
+    double nearest = kNowhere;
+    for (const ProfileElement& e : elements) meet({from, way}, e, kTouchMm, nearest);
+    // A convex arc turns away from the continuation at once, or where its chord ends.
+    if (beyond.radius_mm > 0) {
+        const double chord = -2 * dot(from - beyond.centre, way);
+        if (chord < 2 * kTouchMm) nearest = std::max(chord, 0.0);
+    }
+    if (way.r < 0 && -from.r / way.r <= nearest) {
+        const double axis_z = from.z - from.r / way.r * way.z;
+        if (axis_z >= 0 && axis_z <= elements.back().to.z) return std::nullopt;
+    }
+    if (nearest == kNowhere) return from;
     return from + (0.5 * nearest) * way;
+}
+
+bool is_concave_arc(const ProfileElement& e) {
+    return e.radius_mm < 0;
+}
+
+double bend_per_mm_of(const ProfileElement& e) {
+    return is_concave_arc(e) ? 1 / (-e.radius_mm * kTrueShare) : 0;
+}
+
+// The sine of the turn of the normal at a joint, 1 or -1 where it turns by more than a right angle; > 0:
+// convex.
+double turn_at(const ProfileElement& before, const ProfileElement& after) {
+    const PlanePoint from = before.to_normal, to = after.from_normal;
+    if (dot(from, to) < 0) return from.z < to.z ? 1 : -1;
+    return cross(from, to);
+}
+
+bool is_convex_joint(const ProfileElement& before, const ProfileElement& after) {
+    return turn_at(before, after) > kSmooth;
+}
+
+bool is_nearly_level(PlanePoint normal) {
+    return std::abs(normal.r) < kNearlyLevel;
+}
+
+bool ends_level(const ProfileElement& e, PlanePoint normal) {
+    return is_concave_arc(e) && is_nearly_level(normal);
+}
+
+// How far a line or a convex arc lies beyond the tangent of its neighbour, where the joint turns inwards.
+double beyond_tangent_mm(const ProfileElement& e, double turn) {
+    const double of_chord = norm(e.to - e.from) * turn;
+    return e.is_arc() ? std::min(0.5 * e.radius_mm * turn * turn, of_chord) : of_chord;
+}
+
+// True if both are in one run.
+bool goes_on(const ProfileElement& before, const ProfileElement& after) {
+    if (is_concave_arc(before) || is_concave_arc(after)) return false;
+    const double turn = -turn_at(before, after);
+    return turn < kSmooth ||
+           std::max(beyond_tangent_mm(before, turn), beyond_tangent_mm(after, turn)) < kBeyondMm;
 }
 
 }  // namespace
@@ -101,9 +157,14 @@ ConvexZones::Seen ConvexZones::Face::look_into_hollow(PlanePoint off) const {
     return {kTrueShare * radius + 0.5 * (1 + slope) * beyond, slope * seen.normal};
 }
 
-// A run of elements from `first` to before `end` without a concave joint.
+// Elements from `first` to before `end` without a concave joint, or a concave arc alone.
 struct ConvexZones::Run {
     std::size_t first, end;
+
+    double largest_radius_mm(const std::vector<ProfileElement>& elements) const {
+        return milling::largest_radius_mm({elements.begin() + static_cast<std::ptrdiff_t>(first),
+                                           elements.begin() + static_cast<std::ptrdiff_t>(end)});
+    }
 };
 
 void ConvexZones::add_face(const ProfileElement& e) {
@@ -118,20 +179,20 @@ void ConvexZones::add_level(double up, double height_mm) {
 
 // Ends a zone below its first element: at the joint if that is convex, else within the cutter. Returns the
 // radius there.
-double ConvexZones::add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number,
-                                  PlanePoint normal) {
-    const PlanePoint joint = elements[number].from;
-    const bool convex = number > 0 && cross(elements[number - 1].to_normal, normal) > kSmooth;
-    return add_end(-1, convex ? joint : half_way(elements, joint, -1.0 * along(normal)));
+double ConvexZones::add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number) {
+    const ProfileElement& own = elements[number];
+    if (number == 0) return is_concave_arc(own) ? add_end(-1, own.from) : 0;
+    const ProfileElement& below = elements[number - 1];
+    if (is_convex_joint(below, own) || ends_level(own, own.from_normal)) return add_end(-1, own.from);
+    return add_end(-1, half_way(elements, own.from, -1.0 * along(own.from_normal), below));
 }
 
 // The same above its last element.
-double ConvexZones::add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number,
-                                  PlanePoint normal) {
-    const PlanePoint joint = elements[number].to;
-    const bool convex =
-        number + 1 < elements.size() && cross(normal, elements[number + 1].from_normal) > kSmooth;
-    return add_end(1, convex ? joint : half_way(elements, joint, along(normal)));
+double ConvexZones::add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number) {
+    if (number + 1 == elements.size()) return 0;
+    const ProfileElement &own = elements[number], &above = elements[number + 1];
+    if (is_convex_joint(own, above) || ends_level(own, own.to_normal)) return add_end(1, own.to);
+    return add_end(1, half_way(elements, own.to, along(own.to_normal), above));
 }
 
 double ConvexZones::add_end(double up, const std::optional<PlanePoint>& end) {
@@ -148,45 +209,55 @@ void ConvexZones::add_side(double radius_mm) {
 void ConvexZones::add_run(const std::vector<ProfileElement>& elements, const Run& run) {
     const std::size_t first = faces_.size();
     for (std::size_t n = run.first; n < run.end; ++n) add_face(elements[n]);
-    double radius = largest_radius_mm({elements.begin() + static_cast<std::ptrdiff_t>(run.first),
-                                       elements.begin() + static_cast<std::ptrdiff_t>(run.end)});
-    if (run.first > 0)
-        radius = std::max(radius, add_lower_end(elements, run.first, elements[run.first].from_normal));
-    if (run.end < elements.size())
-        radius = std::max(radius, add_upper_end(elements, run.end - 1, elements[run.end - 1].to_normal));
-    if (run.first > 0 || run.end < elements.size()) add_side(radius);
-    zones_.push_back({first, faces_.size()});
+    if (run.end - run.first < elements.size()) {
+        const double below = add_lower_end(elements, run.first), above = add_upper_end(elements, run.end - 1);
+        add_side(std::max({run.largest_radius_mm(elements), below, above}));
+    }
+    zones_.push_back({first, faces_.size(), bend_per_mm_of(elements[run.first])});
 }
 
-// A level tangent has no height: the ends are those of the first and the last one that is not level.
-void ConvexZones::add_concave(const std::vector<ProfileElement>& elements, std::size_t number) {
-    const ProfileElement& arc = elements[number];
-    const double angle =
-        math::atan2(cross(arc.from_normal, arc.to_normal), dot(arc.from_normal, arc.to_normal));
-    const int count = std::max(1, static_cast<int>(std::ceil(std::abs(angle) / kTangentStep)));
-    struct Tangent {
-        PlanePoint at, normal;
-    };
-    const auto tangent = [&](int n) -> Tangent {
-        double sine, cosine;
-        math::sincos(angle * n / count, sine, cosine);
-        const PlanePoint a = arc.from_normal;
-        const PlanePoint normal{a.r * cosine - a.z * sine, a.z * cosine + a.r * sine};
-        return {arc.centre + arc.radius_mm * normal, normal};
-    };
-    const auto is_level = [&](int n) { return std::abs(tangent(n).normal.r) < kLevel; };
-    int low = 0, high = count;
-    while (low < count && is_level(low)) ++low;
-    while (high > 0 && is_level(high)) --high;
+// Adds what is within both elements, from the lower end of one to the upper end of the other.
+void ConvexZones::add_bridge(const ProfileElement& below, const ProfileElement& above) {
     const std::size_t first = faces_.size();
-    add_face(arc);
-    const Tangent lowest = tangent(low), highest = tangent(high);
-    const double below = low == 0 ? add_lower_end(elements, number, lowest.normal)
-                                  : add_end(-1, half_way(elements, lowest.at, -1.0 * along(lowest.normal)));
-    const double above = high == count ? add_upper_end(elements, number, highest.normal)
-                                       : add_end(1, half_way(elements, highest.at, along(highest.normal)));
-    add_side(std::max({arc.from.r, arc.to.r, below, above}));
-    zones_.push_back({first, faces_.size(), 1 / (-arc.radius_mm * kTrueShare)});
+    add_face(below);
+    add_face(above);
+    add_level(-1, below.from.z);
+    add_level(1, above.to.z);
+    add_side(largest_radius_mm({below, above}));
+    zones_.push_back({first, faces_.size(), std::max(bend_per_mm_of(below), bend_per_mm_of(above))});
+}
+
+// Adds a cylinder around the axis through the end of an element: on one side it is within the element, on the
+// other it goes half way to where the cutter ends.
+void ConvexZones::add_column(const std::vector<ProfileElement>& elements, std::size_t number, double up) {
+    const ProfileElement &own = elements[number], &beyond = elements[up > 0 ? number + 1 : number - 1];
+    const PlanePoint end = up > 0 ? own.to : own.from, other = up > 0 ? own.from : own.to;
+    const std::size_t first = faces_.size();
+    add_face(own);
+    add_level(-up, other.z);
+    add_level(up, half_way(elements, end, {0, up}, beyond)->z);
+    add_side(end.r);
+    zones_.push_back({first, faces_.size(), bend_per_mm_of(own)});
+}
+
+// Two zones that end at one height leave a surface of no thickness there, and two that overlap little a thin
+// one. A further zone overlaps both where element `number` ends.
+void ConvexZones::join(const std::vector<ProfileElement>& elements, std::size_t number) {
+    const ProfileElement &own = elements[number], &next = elements[number + 1];
+    const double turn = turn_at(own, next);
+    if (turn < kLittle && is_nearly_level(own.to_normal) && own.to_normal.z < 0) {
+        add_column(elements, number, 1);
+    } else if (turn < kLittle && is_nearly_level(next.from_normal) && next.from_normal.z > 0) {
+        add_column(elements, number + 1, -1);
+    } else if (!is_concave_arc(own) && !is_concave_arc(next)) {
+        if (turn > -kLittle) add_bridge(own, next);
+    } else if (turn > kSmooth) {
+        // A level line gives way to what is behind it, which has the same height.
+        std::size_t below = number + 1, above = number + 1;
+        while (below > 0 && elements[below - 1].is_level()) --below;
+        while (above < elements.size() && elements[above].is_level()) ++above;
+        if (below > 0 && above < elements.size()) add_bridge(elements[below - 1], elements[above]);
+    }
 }
 
 ConvexZones::ConvexZones(const Cutter& cutter) : length_mm_(cutter.length_mm) {
@@ -194,17 +265,15 @@ ConvexZones::ConvexZones(const Cutter& cutter) : length_mm_(cutter.length_mm) {
     radius_mm_ = largest_radius_mm(elements);
     const PlanePoint top = elements.back().to, up{0, 1};
     elements.push_back({top, {0, top.z}, up, up, {}, 0});
-    std::size_t begin = 0;
+    std::vector<Run> runs;
     for (std::size_t n = 0; n < elements.size(); ++n) {
-        const bool concave = elements[n].radius_mm < 0;
-        const bool joins = n > begin && cross(elements[n - 1].to_normal, elements[n].from_normal) > -kSmooth;
-        if ((concave || !joins) && n > begin) add_run(elements, {begin, n});
-        if (concave || !joins) begin = n;
-        if (!concave) continue;
-        add_concave(elements, n);
-        begin = n + 1;
+        if (n == 0 || !goes_on(elements[n - 1], elements[n])) runs.push_back({n, n});
+        ++runs.back().end;
     }
-    if (begin < elements.size()) add_run(elements, {begin, elements.size()});
+    for (const Run& run : runs) {
+        add_run(elements, run);
+        if (run.end < elements.size()) join(elements, run.end - 1);
+    }
 }
 
 ConvexZones::Seen ConvexZones::look(std::size_t zone, PlanePoint at) const {

@@ -5,7 +5,8 @@
 // A zone is a run of lines and convex arcs of the profile up to the next vertex that is concave, or one
 // concave arc. Its solid is the intersection of what lies inside each of them. Above and below the run it
 // goes on into the cutter, up to half way to the other side, so that zones overlap: where they meet no
-// surface is left within the cutter.
+// surface is left within the cutter. Where there is little way on, as at a convex joint with a concave arc, a
+// further zone overlaps both.
 //
 // As seen from a point that moves, the distance to a zone is convex wherever the point goes straight, because
 // the profile never hangs back: every outward normal points away from the axis or along it. Only that to a
@@ -65,9 +66,11 @@ class ConvexZones {
     };
     struct Run;
     void add_run(const std::vector<ProfileElement>& elements, const Run& run);
-    void add_concave(const std::vector<ProfileElement>& elements, std::size_t arc);
-    double add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
-    double add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number, PlanePoint normal);
+    void join(const std::vector<ProfileElement>& elements, std::size_t number);
+    void add_bridge(const ProfileElement& below, const ProfileElement& above);
+    void add_column(const std::vector<ProfileElement>& elements, std::size_t number, double up);
+    double add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number);
+    double add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number);
     double add_end(double up, const std::optional<PlanePoint>& end);
     void add_side(double radius_mm);
     void add_face(const ProfileElement& element);

@@ -351,6 +351,9 @@ Result<void> check_profile(const Cutter& c) {
             return "between (" + plain_number(e.from.r) + ", " + plain_number(e.from.z) + ") and (" +
                    plain_number(e.to.r) + ", " + plain_number(e.to.z) + ")";
         };
+        if (!(e.from.r > kSlack) && !(e.to.r > kSlack))
+            return refuse_shape("profile", "runs along the axis " + place(),
+                                "remove one of the two vertices");
         if (e.from_normal.r < -kSlack || e.to_normal.r < -kSlack)
             return refuse_shape("profile", "has an arc " + place() + " that hangs back below its ends",
                                 "split it where it is lowest or highest: a profile never goes down");

@@ -173,8 +173,9 @@ RC_GTEST_PROP(FeedSolver, finds_the_largest_feed_within_the_limit, ()) {
     FeedSolver solver(setup, model, false);
     const double factor = solver.largest_factor(row, solver.ratio(row, 1), 100);
     if (factor == 0) {
-        // Or already a tooth that begins to cut at a trace of a feed.
-        RC_ASSERT(std::max(solver.ratio(row, 1e-6), solver.ratio(row, 0.01)) > 1);
+        // The edges alone reach the limit, as closely as it is looked for, or a tooth that begins to cut at a
+        // trace of a feed.
+        RC_ASSERT(std::max(solver.ratio(row, 1e-6), solver.ratio(row, 0.01)) > 1 - 2e-3);
         return;
     }
     RC_ASSERT(solver.ratio(row, factor) <= 1 + 1e-5);
