@@ -12,6 +12,11 @@ namespace {
 
 constexpr int kDeepestNesting = 60;
 
+double angle_from_0_to_360(double y, double x) {
+    const double degrees = math::atan2(y, x) * math::kDegPerRad;
+    return degrees < 0 ? degrees + 360 : degrees;
+}
+
 double rounded_toward_zero(double x) {
     return x < 0 ? std::ceil(x) : std::floor(x);
 }
@@ -61,7 +66,7 @@ Result<double> LineReader::product(int depth) {
                 : operation == over      ? *value / *next
                 : operation == remainder ? *value - *next * std::trunc(*value / *next)
                 : operation == length    ? math::hypot(*value, *next)
-                                         : math::atan2(*value, *next) * math::kDegPerRad;
+                                         : angle_from_0_to_360(*value, *next);
     }
 }
 

@@ -143,9 +143,15 @@ Result<void> Interpreter::transform(LineReader& in) {
 }
 
 // Sets the frame in force. The tool does not move.
+// A rotation in a mirrored frame turns the other way: what it gives is mirrored.
+motion::WorkFrame Interpreter::frame_in_plane() const {
+    const double turn_deg = mirror_.x * mirror_.y < 0 ? -rotation_deg_ : rotation_deg_;
+    return plane_.shifted(shift_mm_).turned({0, 0, 1}, turn_deg * math::kRadPerDeg);
+}
+
 void Interpreter::set_frame() {
     contour_.leave();
-    path_.frame = plane_.shifted(shift_mm_).turned({0, 0, 1}, rotation_deg_ * math::kRadPerDeg);
+    path_.frame = frame_in_plane();
     pole_.reset();
 }
 

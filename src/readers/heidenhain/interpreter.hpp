@@ -215,6 +215,7 @@ class Interpreter {
     Result<void> tilt_by_axes(const std::vector<Item>& items, bool keeps_tip, int column);
     void note_projection();
     Result<void> machine_function(LineReader& in);
+    motion::WorkFrame frame_in_plane() const;
     void set_frame();
 
     // Cycles (cycles.cpp, drilling.cpp, patterns.cpp, pockets.cpp, thread_milling.cpp, faces.cpp)

@@ -171,8 +171,7 @@ Result<void> Interpreter::tilt(motion::WorkFrame turned, bool resets, bool keeps
     turned.origin_mm = resets ? Vec3{} : path_.frame.origin_mm;
     plane_ = turned;
     shift_mm_ = resets ? untilted_shift_mm_ : Vec3{};
-    const motion::WorkFrame frame =
-        plane_.shifted(shift_mm_).turned({0, 0, 1}, rotation_deg_ * math::kRadPerDeg);
+    const motion::WorkFrame frame = frame_in_plane();
     pole_.reset();
     if (!path_.tilt(frame, keeps_tip, line_.number, to_rad)) {
         return path_.refuse(place(column),

@@ -228,6 +228,12 @@ TEST(GcodeReader, PlacesTurnedScaledMirroredAndPolarCoordinates) {
     expect_near(end_of("G1 X3 Y4\nG68 R90\nX4 Y4\n"), {3, 5, 5});  // about where the tool is
     expect_near(end_of("G68 X0 Y0 R90\nG1 X10 Y0\nG69\nX7\n"), {7, 10, 5});
     expect_near(end_of("G68 X0 Y0 R90\nG1 X10 Y0\nG91 X5\n"), {0, 15, 5});
+    // A mirror image of turned coordinates is the image of what they give.
+    expect_near(end_of("G51.1 X0\nG68 X0 Y0 R30\nG1 X20 Y0\n"), {-10 * std::sqrt(3.0), 10, 5});
+    expect_near(end_of("G51.1 X0\nG68 X10 Y0 R30\nG1 X20 Y0\n"), {-10 - 5 * std::sqrt(3.0), 5, 5});
+    expect_near(end_of("G51.1 X3 Y4\nG68 X10 Y0 R90\nG1 X20 Y0\n"), {-4, -2, 5});
+    // The centre of a rotation is scaled, its angle is not.
+    expect_near(end_of("G51 X0 Y0 Z0 P2000\nG68 X10 Y0 R90\nG1 X20 Y0\n"), {20, 20, 5});
 
     expect_near(end_of("G51 X0 Y0 Z0 P2\nG1 X10 Y3 Z4\n"), {20, 6, 8});
     expect_near(end_of("G51 X10 Y0 Z0 P500\nG1 X20 Y2\nG50\nY0\n"), {15, 0, 5});

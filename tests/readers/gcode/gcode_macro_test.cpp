@@ -90,12 +90,36 @@ TEST(GcodeMacro, CallsLinesAndRepeats) {
     EXPECT_DOUBLE_EQ(feed_of("G91\nM98 P9 Q20 L2\nM30\nN20 X50\nO9\nX60\nN20 X3\nM99\n"), 6);
 }
 
+// As the manuals of Fanuc and Haas say, and LinuxCNC does not.
+TEST(GcodeMacro, ComputesAsFanucControlsDo) {
+    const std::pair<const char*, double> cases[] = {
+        {"12 AND 10", 8},
+        {"12 OR 3", 15},
+        {"12 XOR 10", 6},
+        {"[13 AND 4] EQ 4", 1},
+        {"[1 LT 2] AND [3 LT 4]", 1},
+        {"-7 MOD 3", -1},
+        {"27 MOD 20", 7},
+        {"7.9 MOD 2.9", 2},
+        {"FIX[-1.2]", -1},
+        {"FUP[-1.2]", -2},
+        {"ATAN[-1]/[-1]", 225},
+        {"ATAN[1]/[-1]", 135},
+        {"ROUND[1.7]", 2},
+    };
+    for (const auto& [formula, value] : cases)
+        EXPECT_NEAR(end_x(std::string("#1=") + formula + "\nX#1\n"), value, 1e-9) << formula;
+    // In a word ROUND rounds to the least increment.
+    EXPECT_NEAR(end_x("#1=1.2345\n#2=2.3456\nX[ROUND[#1]+ROUND[#2]]\n"), 1.235 + 2.346, 1e-9);
+    EXPECT_NEAR(end_x("#1=1.2345\nG20 X0\nX[ROUND[#1*1.00001]]\n"), 25.4 * 1.2345, 1e-9);
+}
+
 // Custom macro B: two letters of a word are enough.
 TEST(GcodeMacro, KnowsWordsByTheirFirstTwoLetters) {
     EXPECT_DOUBLE_EQ(feed_of("G91\n#1=0\nWH[#1LT3]DO1\nX1\n#1=#1+1\nEN1\n"), 3);
     EXPECT_DOUBLE_EQ(feed_of("IF[1EQ1]GO20\nX50\nN20 X5\n"), 5);
     EXPECT_DOUBLE_EQ(feed_of("GO 20\nX50\nN20 X5\n"), 5);
-    EXPECT_DOUBLE_EQ(end_x("X[SQ[16]+RO[2.6]+FI[1.7]+FU[1.2]+AB[-3]]\n"), 4 + 3 + 1 + 2 + 3);
+    EXPECT_DOUBLE_EQ(end_x("#1=SQ[16]+RO[2.6]+FI[1.7]+FU[1.2]+AB[-3]\nX#1\n"), 4 + 3 + 1 + 2 + 3);
     EXPECT_NEAR(end_x("X[10*[SI[30]+CO[60]+TA[45]]]\n"), 20, 1e-9);
     EXPECT_NEAR(end_x("X[AS[0.5]+AC[0.5]+AT[1]/[1]]\n"), 30 + 60 + 45, 1e-9);
     // In other dialects they are no words.

@@ -197,6 +197,20 @@ TEST(HeidenhainContour, MirrorsAndScales) {
     EXPECT_NEAR(length_of(program, 2), 5 * kPi, 1e-9);
 }
 
+TEST(HeidenhainContour, MirrorsWhatIsTurned) {
+    const motion::Program program = conversational(after_start(R"(4 CYCL DEF 8.0 MIRROR IMAGE
+5 CYCL DEF 8.1 X
+6 CYCL DEF 10.0 ROTATION
+7 CYCL DEF 10.1 ROT+30
+8 L X+20 Y+0 F100
+9 L X+20 Y+10
+)"));
+    ASSERT_EQ(program.moves.size(), 2U);
+    const double half = 0.5, high = std::sqrt(0.75);
+    expect_near(program.moves[0].end.tip_mm, {-20 * high, 20 * half, 10}, 1e-12);
+    expect_near(program.moves[1].end.tip_mm, {-20 * high + 10 * half, 20 * half + 10 * high, 10}, 1e-12);
+}
+
 TEST(HeidenhainContour, RefusesWhatDoesNotFit) {
     const Refusal refusals[] = {
         {with_cutter("L X+0 Y+0 RR F200\nL Y+4\nL X+4\nL Y+0\n"), 7, 1,

@@ -31,7 +31,9 @@ TEST(Model, refuses_an_empty_file_a_stranger_and_a_unit_without_length) {
     EXPECT_EQ(read_model("", {.source_name = "a.stl"}).error().text(),
               "a.stl: error: the file is empty; export the model again");
     EXPECT_EQ(read_model("ISO-10303-21;", {.source_name = "a.step"}).error().text(),
-              "a.step: error: not a model format that is known; export the model as STL, OBJ, PLY, VRML 2.0 "
+              "a.step: error: STEP models are not read; export the model as STL, OBJ, PLY, VRML 2.0 or glTF");
+    EXPECT_EQ(read_model("a thing", {.source_name = "a.txt"}).error().text(),
+              "a.txt: error: not a model format that is known; export the model as STL, OBJ, PLY, VRML 2.0 "
               "or glTF");
     for (const double unit : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
         const auto model =

@@ -134,7 +134,7 @@ Vec3 ProgramFrame::placed_offset(Vec3 offset) const {
     for (int axis = 0; axis < 3; ++axis) {
         offset[axis] *= scale[axis] * (mirror_mm[static_cast<std::size_t>(axis)] ? -1 : 1);
     }
-    return turned_in(turn_plane, offset, turn_deg);
+    return turned_in(turn_plane, offset, placed_turn_deg());
 }
 
 double ProgramFrame::placed_level(double level, int axis) const {
@@ -143,13 +143,23 @@ double ProgramFrame::placed_level(double level, int axis) const {
 }
 
 Vec3 ProgramFrame::placed(Vec3 written) const {
+    const Vec3 centre = placed_unturned(turn_centre_mm);
+    return centre + turned_in(turn_plane, placed_unturned(written) - centre, placed_turn_deg());
+}
+
+Vec3 ProgramFrame::placed_unturned(Vec3 written) const {
     Vec3 p;
     for (int axis = 0; axis < 3; ++axis) p[axis] = placed_level(written[axis], axis);
-    return turn_centre_mm + turned_in(turn_plane, p - turn_centre_mm, turn_deg);
+    return p;
+}
+
+double ProgramFrame::placed_turn_deg() const {
+    return is_mirrored(turn_plane) ? -turn_deg : turn_deg;
 }
 
 Vec3 ProgramFrame::written(Vec3 placed) const {
-    Vec3 p = turn_centre_mm + turned_in(turn_plane, placed - turn_centre_mm, -turn_deg);
+    const Vec3 centre = placed_unturned(turn_centre_mm);
+    Vec3 p = centre + turned_in(turn_plane, placed - centre, -placed_turn_deg());
     for (int axis = 0; axis < 3; ++axis) {
         p[axis] = scale_centre_mm[axis] + (p[axis] - scale_centre_mm[axis]) / scale[axis];
         if (const auto mirror = mirror_mm[static_cast<std::size_t>(axis)]) p[axis] = 2 * *mirror - p[axis];

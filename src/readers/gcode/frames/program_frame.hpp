@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Coordinates that a program writes turned, scaled, mirrored or polar (G68, G51, G51.1, G16): from the
 // written point to the point in the axes of the program. The order is that of Fanuc controls: mirror image,
-// scaling, rotation.
+// scaling, rotation. The centre of a rotation is written, too, so it is mirrored and scaled; a mirror image
+// turns the other way.
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@ struct ProgramFrame {
     Vec3 scale{1, 1, 1}, scale_centre_mm;
     Plane turn_plane = Plane::xy;
     double turn_deg = 0;
-    Vec3 turn_centre_mm;
+    Vec3 turn_centre_mm;  // as written
 
     // True if written points are those in the axes of the program.
     bool is_plain() const;
@@ -42,6 +43,10 @@ struct ProgramFrame {
     bool is_mirrored(Plane plane) const;
     // Scale in the plane; absent: not the same for both of its axes.
     std::optional<double> scale_in(Plane plane) const;
+
+  private:
+    Vec3 placed_unturned(Vec3 written) const;
+    double placed_turn_deg() const;
 };
 
 // G15 G16, G50 G51, G50.1 G51.1, G68 G69 and tilted planes of the block, with their words.

@@ -34,7 +34,8 @@ class Run {
         if (!target) return std::unexpected(target.error());
         Vec3 place = target->tip_mm;
         const Vec3 step = state_.incremental ? place - state_.tip_mm : Vec3{};
-        if (state_.tip_mm[axis_] < retract_) {
+        // LinuxCNC lifts the tool first; a Fanuc control goes to the hole at the height where the tool is.
+        if (output_.options.dialect == GcodeDialect::linuxcnc && state_.tip_mm[axis_] < retract_) {
             if (auto moved = go(MoveKind::rapid, retract_); !moved) return moved;
         }
         for (int i = 0; i < repeats_; ++i) {

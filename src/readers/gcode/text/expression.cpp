@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "readers/gcode/text/expression.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "base/math.hpp"
@@ -81,8 +83,8 @@ bool stands_here(const Cursor& cursor, std::string_view name) {
 
 class ExpressionReader {
   public:
-    ExpressionReader(Cursor& cursor, const Parameters& parameters, int depth = 0)
-        : cursor_(cursor), parameters_(parameters), depth_(depth) {}
+    ExpressionReader(Cursor& cursor, const Parameters& parameters, double round_to)
+        : cursor_(cursor), parameters_(parameters), round_to_(round_to) {}
 
     Result<double> value() {
         if (++depth_ > kDeepestNesting) {
@@ -216,9 +218,14 @@ class ExpressionReader {
             case Operator::over:
                 return finite(a / b, start, "a division by zero", "test the divisor before");
             case Operator::modulo: {
+                // Fanuc: of whole numbers, with the sign of the first.
+                if (parameters_.is_fanuc()) {
+                    a = std::round(a);
+                    b = std::round(b);
+                }
                 if (b == 0) return finite(a / b, start, "a division by zero", "test the divisor before");
                 const double rest = std::fmod(a, b);
-                return rest < 0 ? rest + std::abs(b) : rest;
+                return rest < 0 && !parameters_.is_fanuc() ? rest + std::abs(b) : rest;
             }
             case Operator::plus:
             case Operator::minus:
@@ -236,13 +243,20 @@ class ExpressionReader {
                 return truth(a < b);
             case Operator::le:
                 return truth(a <= b);
-            case Operator::and_:
-                return truth(a != 0 && b != 0);
-            case Operator::or_:
-                return truth(a != 0 || b != 0);
             default:
-                return truth((a != 0) != (b != 0));
+                return parameters_.is_fanuc() ? of_bits(op, a, b) : truth(of_truths(op, a != 0, b != 0));
         }
+    }
+
+    static bool of_truths(Operator op, bool a, bool b) {
+        return op == Operator::and_ ? a && b : op == Operator::or_ ? a || b : a != b;
+    }
+
+    // Fanuc and Haas: of the bits of the whole parts.
+    static double of_bits(Operator op, double a, double b) {
+        const auto bits = [](double v) { return static_cast<std::int32_t>(std::clamp(v, -2e9, 2e9)); };
+        const std::int32_t first = bits(a), second = bits(b);
+        return op == Operator::and_ ? first & second : op == Operator::or_ ? first | second : first ^ second;
     }
 
     // Fanuc controls know a function by the first two letters before its bracket, too.
@@ -340,7 +354,13 @@ class ExpressionReader {
             ++ahead.at;
             if (ahead.peek_after_blanks() == '[') return arc_tangent(*first);
         }
-        return math::atan2(*first, second.value_or(1)) * math::kDegPerRad;
+        return second ? angle_deg(*first, *second) : math::atan2(*first, 1.0) * math::kDegPerRad;
+    }
+
+    // Fanuc: from 0 to 360 (parameter 6004), LinuxCNC: from -180 to 180.
+    double angle_deg(double y, double x) const {
+        const double degrees = math::atan2(y, x) * math::kDegPerRad;
+        return degrees < 0 && parameters_.is_fanuc() ? degrees + 360 : degrees;
     }
 
     // ATAN[y]/[x], in degrees.
@@ -352,10 +372,10 @@ class ExpressionReader {
         }
         const auto x = bracket();
         if (!x) return x;
-        return math::atan2(y, number_or_0(*x)) * math::kDegPerRad;
+        return angle_deg(y, number_or_0(*x));
     }
 
-    static double called(Function function, double x) {
+    double called(Function function, double x) const {
         switch (function) {
             case Function::abs:
                 return std::abs(x);
@@ -367,14 +387,15 @@ class ExpressionReader {
                 return math::cos(x * math::kRadPerDeg);
             case Function::exp:
                 return math::exp(x);
+            // Fanuc: towards zero and away from it.
             case Function::fix:
-                return std::floor(x);
+                return x < 0 && parameters_.is_fanuc() ? std::ceil(x) : std::floor(x);
             case Function::fup:
-                return std::ceil(x);
+                return x < 0 && parameters_.is_fanuc() ? std::floor(x) : std::ceil(x);
             case Function::ln:
                 return math::log(x);
             case Function::round:
-                return x < 0 ? std::ceil(x - 0.5) : std::floor(x + 0.5);
+                return round_to_ * std::round(x / round_to_);
             case Function::sin:
                 return math::sin(x * math::kRadPerDeg);
             case Function::sqrt:
@@ -386,17 +407,18 @@ class ExpressionReader {
 
     Cursor& cursor_;
     const Parameters& parameters_;
-    int depth_;
+    double round_to_;
+    int depth_ = 0;
 };
 
 }  // namespace
 
-Result<double> read_value(Cursor& cursor, const Parameters& parameters) {
-    return ExpressionReader(cursor, parameters).value();
+Result<double> read_value(Cursor& cursor, const Parameters& parameters, double round_to) {
+    return ExpressionReader(cursor, parameters, round_to).value();
 }
 
 Result<double> read_formula(Cursor& cursor, const Parameters& parameters) {
-    return ExpressionReader(cursor, parameters).formula();
+    return ExpressionReader(cursor, parameters, 1).formula();
 }
 
 bool starts_computed_value(const Cursor& cursor) {
@@ -412,7 +434,7 @@ bool starts_computed_value(const Cursor& cursor) {
 }
 
 Result<void> read_parameter_name(Cursor& cursor, const Parameters& parameters, ParameterName& read) {
-    return ExpressionReader(cursor, parameters).parameter_name(read);
+    return ExpressionReader(cursor, parameters, 1).parameter_name(read);
 }
 
 }  // namespace tribo::readers::gcode

@@ -2,7 +2,9 @@
 // Numbers of a program: digits, #parameters, [expressions] and functions, with the operators of LinuxCNC: **
 // before * / MOD before + - before EQ NE GT GE LT LE before AND OR XOR, each from left to right. Angles are
 // in degrees. Allocates only for names and errors. A vacant variable of a Fanuc control is not a number: it
-// equals only another one, and counts as 0 in formulas.
+// equals only another one, and counts as 0 in formulas. On Fanuc and Haas controls AND OR XOR combine the
+// bits of whole numbers, MOD keeps the sign of the first number, FIX and FUP go towards zero and away from
+// it, and ATAN gives 0 to 360.
 #pragma once
 
 #include <optional>
@@ -16,8 +18,8 @@
 namespace tribo::readers::gcode {
 
 // Reads a number, #parameter, [expression] or function, with any signs before it. Not a number: a vacant
-// variable.
-Result<double> read_value(Cursor& cursor, const Parameters& parameters);
+// variable. ROUND gives a multiple of `round_to`.
+Result<double> read_value(Cursor& cursor, const Parameters& parameters, double round_to = 1);
 
 // The same with operators that no brackets enclose: what follows '=' on a Fanuc control.
 Result<double> read_formula(Cursor& cursor, const Parameters& parameters);

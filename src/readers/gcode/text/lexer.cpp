@@ -376,7 +376,7 @@ Result<std::optional<double>> Lexer::read_number(char letter, std::size_t word) 
         return negative ? -**digits : **digits;
     }
     if (!starts_computed_value(cursor_)) return refuse_number(letter, word, has_sign);
-    const auto value = read_value(cursor_, parameters_);
+    const auto value = read_value(cursor_, parameters_, parameters_.round_to(letter));
     if (!value) return std::unexpected(value.error());
     if (std::isnan(*value)) return std::nullopt;
     return negative ? -*value : *value;

@@ -100,6 +100,12 @@ Result<double> Parameters::position(int axis) const {
 bool Parameters::is_fanuc() const {
     return output_.options.dialect == GcodeDialect::fanuc;
 }
+double Parameters::round_to(char letter) const {
+    constexpr std::string_view kCoordinates = "ABCIJKQRUVWXYZ";
+    if (!is_fanuc() || !kCoordinates.contains(letter)) return 1;
+    const bool is_angle = letter >= 'A' && letter <= 'C';
+    return state_.unit_mm == 1 || is_angle ? 1e-3 : 1e-4;
+}
 int Parameters::first() const {
     return is_fanuc() ? 0 : 1;
 }

@@ -34,6 +34,9 @@ class Parameters {
     int first() const;
     int last() const;
     bool is_fanuc() const;
+    // What ROUND in the value of a word rounds to: on Fanuc controls the least increment of a coordinate,
+    // else 1.
+    double round_to(char letter) const;
     // Errors have cause and remedy, but no place. An unassigned number reads as 0 (Fanuc: vacant), with a
     // warning; an unassigned name is refused.
     Result<double> get(int number) const;
