@@ -35,6 +35,14 @@ float handleMm() {
     return kMmPerTurn * (turns + (float)(count - zeroCount) / kCountsPerTurn);
 }
 
+// After a lost or damaged byte a packet may begin within the bytes that are held.
+void dropToNextMark() {
+    do {
+        --held;
+        memmove(incoming, incoming + 1, held);
+    } while (held > 0 && incoming[0] != TRIBO_FORCE_MARK);
+}
+
 void setup() {
     Serial.begin(1000000);
     pinMode(kPwmPin, OUTPUT);
@@ -55,9 +63,12 @@ void loop() {
         if (held == 0 && byte != TRIBO_FORCE_MARK) continue;
         incoming[held++] = byte;
         if (held < TRIBO_FORCE_BYTES) continue;
-        held = 0;
         tribo_force_mn force;
-        if (!tribo_read_force(incoming, &force)) continue;
+        if (!tribo_read_force(incoming, &force)) {
+            dropToNextMark();
+            continue;
+        }
+        held = 0;
         push(1e-3f * force.mn[2]);
         lastForceUs = micros();
     }
