@@ -44,6 +44,7 @@ class FakeBoard {
     std::atomic<int> step[3] = {0, 0, 0};
     std::atomic<int> mn[3] = {0, 0, 0};
     std::atomic<int> moving{0};  // steps of x a tick
+    std::atomic<int> missed{0};  // so many of the next positions get lost
     std::atomic<bool> noisy{false};
 
   private:
@@ -76,6 +77,11 @@ class FakeBoard {
                 step[0] += moving;
                 for (int i = 0; i < 3; ++i) place.step[i] = static_cast<std::int16_t>(step[i].load());
                 place.buttons = 2;
+                if (missed > 0) {
+                    --missed;
+                    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+                    continue;
+                }
                 std::array<std::uint8_t, TRIBO_PLACE_BYTES> packet;
                 tribo_write_place(&place, packet.data());
                 std::size_t size = packet.size();
@@ -158,6 +164,28 @@ TEST(SerialArm, takes_the_speed_from_the_arms_own_ticks) {
     int ready = 0;
     ASSERT_TRUE(read_until(*device, reading, [&] { return ++ready > 50; }));
     EXPECT_NEAR(reading.velocity_mm_per_s.x, 50, 1e-6);
+}
+
+// The numbers of the positions go round after 256: then two positions far apart would seem to be neighbours.
+TEST(SerialArm, knows_no_speed_over_a_gap_in_which_the_numbers_go_round) {
+    FakeBoard board(kHello);
+    board.moving = 5;
+    auto device = opened(board);
+    ASSERT_NE(device, nullptr);
+    haptics::HandReading reading;
+    for (const int missed : {3, 200, 250, 255, 511}) {
+        int ready = 0;
+        ASSERT_TRUE(read_until(*device, reading, [&] { return ++ready > 20; }));
+        EXPECT_NEAR(reading.velocity_mm_per_s.x, 50, 1e-6);
+        board.missed = missed;
+        while (board.missed > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        for (int n = 0; n < 20; ++n) {
+            ASSERT_TRUE(read_until(*device, reading, [] { return true; }));
+            if (reading.velocity_mm_per_s.x != 0) {
+                ASSERT_NEAR(reading.velocity_mm_per_s.x, 50, 1e-6) << missed;
+            }
+        }
+    }
 }
 
 TEST(SerialArm, finds_the_next_packet_behind_a_damaged_one) {

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "devices/serial_packets.h"
+#include "devices/servo/tick_clock.hpp"
 
 namespace tribo::devices {
 namespace {
@@ -27,8 +28,11 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kAskEvery{200};
 constexpr std::size_t kLongestLine = 400;
 constexpr double kMnPerN = 1e3, kMostMn = 32767;
-// Number of ticks of the arm for the speed.
+// Number of positions for the speed.
 constexpr std::size_t kSpeedTicks = 8;
+// Ticks of the arm. Its positions have numbers from 0 to 255. After a longer gap by the clock they may have
+// gone round, and say no longer how many ticks have passed.
+constexpr double kLongestGap = 64;
 
 struct Rate {
     int baud;
@@ -72,7 +76,8 @@ class SerialArm final : public haptics::Device {
         : port_(std::move(port)),
           facts_(std::move(facts)),
           limits_(haptics::scaled(facts_.limits, mounting.scale)),
-          mounting_(mounting) {
+          mounting_(mounting),
+          longest_gap_ns_(static_cast<std::uint64_t>(1e9 * kLongestGap / facts_.rate_hz)) {
         limits_.name = facts_.name;
     }
     ~SerialArm() override { (void)write({}); }
@@ -80,6 +85,8 @@ class SerialArm final : public haptics::Device {
     const haptics::DeviceLimits& limits() const override { return limits_; }
 
     DeviceState read(haptics::HandReading& reading) noexcept override {
+        const std::uint64_t now = wall_ns();
+        if (now - place_ns_ > longest_gap_ns_) taken_ = 0;
         bool any = false;
         for (int count = 1; count > 0;) {
             count = port_.read(std::span(bytes_).subspan(held_));
@@ -91,6 +98,7 @@ class SerialArm final : public haptics::Device {
             any = take_packets() || any;
         }
         if (!any) return DeviceState::silent;
+        place_ns_ = now;
         reading.position_mm = mounting_.origin_mm + mounting_.scale * place_;
         reading.velocity_mm_per_s = mounting_.scale * speed();
         reading.buttons = buttons_;
@@ -138,7 +146,8 @@ class SerialArm final : public haptics::Device {
         place_ = step * Vec3{static_cast<double>(place.step[0]), static_cast<double>(place.step[1]),
                              static_cast<double>(place.step[2])};
         buttons_ = place.buttons;
-        past_[taken_ % past_.size()] = {place_, place.sequence};
+        tick_ += static_cast<std::uint8_t>(place.sequence - static_cast<std::uint8_t>(tick_));
+        past_[taken_ % past_.size()] = {place_, tick_};
         ++taken_;
     }
     // Divides by the ticks counted by the arm, so that a lost packet does not change the speed.
@@ -146,24 +155,27 @@ class SerialArm final : public haptics::Device {
         if (taken_ < 2) return {};
         const Past& last = past_[(taken_ - 1) % past_.size()];
         const Past& first = past_[taken_ <= past_.size() ? 0 : taken_ % past_.size()];
-        const auto ticks = static_cast<std::uint8_t>(last.sequence - first.sequence);
+        const auto ticks = static_cast<double>(last.tick - first.tick);
         return ticks > 0 ? (facts_.rate_hz / ticks) * (last.place - first.place) : Vec3{};
     }
 
     struct Past {
         Vec3 place;
-        std::uint8_t sequence = 0;
+        std::uint64_t tick = 0;
     };
     Port port_;
     SerialArmFacts facts_;
     haptics::DeviceLimits limits_;
     Mounting mounting_;
+    std::uint64_t longest_gap_ns_;
+    std::uint64_t place_ns_ = 0;  // when the last position came
     std::array<std::uint8_t, 512> bytes_{};
     std::size_t held_ = 0, taken_ = 0;
     std::array<Past, kSpeedTicks + 1> past_;
     Vec3 place_;
     unsigned buttons_ = 0;
     std::uint64_t sequence_ = 0;
+    std::uint64_t tick_ = 0;  // of the arm; the low byte is the number of its last position
     std::atomic<bool> gone_{false};
 };
 
