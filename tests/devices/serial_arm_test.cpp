@@ -232,6 +232,9 @@ TEST(SerialArm, says_what_to_do_where_there_is_no_port_no_arm_or_nonsense) {
          {"tribo-arm 2;", "", "tribo-arm 1;max_n=x", "tribo-arm 1;max_n=-3", "tribo-arm 1;max_n=nan",
           "tribo-arm 1;rate_hz=1e9", "tribo-arm 1;resolution_mm="})
         EXPECT_FALSE(read_serial_arm_facts(line).has_value()) << line;
+    EXPECT_EQ(read_serial_arm_facts("tribo-arm 1;rate_hz=499").error().cause,
+              "the arm says 'rate_hz=499': rate_hz is a number from 500 to 20000");
+    EXPECT_EQ(read_serial_arm_facts("tribo-arm 1;rate_hz=500").value().rate_hz, 500);
     const auto plain = read_serial_arm_facts(
         "tribo-arm 1;name=\x01"
         "a;what=ever;;max_n=2\r");

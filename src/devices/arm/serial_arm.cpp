@@ -15,6 +15,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "base/text/limit_text.hpp"
 #include "devices/serial_packets.h"
 #include "devices/servo/tick_clock.hpp"
 
@@ -27,6 +28,9 @@ using Clock = std::chrono::steady_clock;
 // Interval of the requests until the board has started.
 constexpr std::chrono::milliseconds kAskEvery{200};
 constexpr std::size_t kLongestLine = 400;
+// The servo calls an arm silent after 5 ms. Two ticks of 2 ms and one of the servo fit in: one position may
+// get lost.
+constexpr double kLeastRateHz = 500, kMostRateHz = 20'000;
 constexpr double kMnPerN = 1e3, kMostMn = 32767;
 // Number of positions for the speed.
 constexpr std::size_t kSpeedTicks = 8;
@@ -254,7 +258,7 @@ Result<SerialArmFacts> read_serial_arm_facts(std::string_view line) {
         {"max_n_per_mm", facts.limits.max_stiffness_n_per_mm, 1e-3, 100},
         {"max_ns_per_mm", facts.limits.max_damping_n_s_per_mm, 0, 1},
         {"resolution_mm", facts.limits.resolution_mm, 1e-4, 1},
-        {"rate_hz", facts.rate_hz, 100, 20'000},
+        {"rate_hz", facts.rate_hz, kLeastRateHz, kMostRateHz},
     };
     line.remove_prefix(kHello.size());
     while (!line.empty()) {
@@ -273,9 +277,9 @@ Result<SerialArmFacts> read_serial_arm_facts(std::string_view line) {
             const auto read = std::from_chars(value.data(), value.data() + value.size(), v);
             if (read.ec != std::errc() || read.ptr != value.data() + value.size() ||
                 !(v >= n.least && v <= n.most)) {
-                return fail(
-                    "the arm says '" + std::string(fact.substr(0, 60)) + "', which is no " + std::string(key),
-                    "correct its firmware");
+                return fail("the arm says '" + std::string(fact.substr(0, 60)) + "': " + std::string(key) +
+                                " is a number from " + plain_number(n.least) + " to " + plain_number(n.most),
+                            "correct its firmware");
             }
             n.value = v;
         }
