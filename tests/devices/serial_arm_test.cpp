@@ -228,6 +228,13 @@ TEST(SerialArm, says_what_to_do_where_there_is_no_port_no_arm_or_nonsense) {
     options.port = silent.port;
     options.timeout_ms = 300;
     EXPECT_NE(open_serial_arm(options).error().cause.find("nobody"), std::string::npos);
+    FakeBoard newer("tribo-arm 2;name=X");
+    options.port = newer.port;
+    EXPECT_NE(open_serial_arm(options).error().cause.find("answers 'tribo-arm 2;name=X'"), std::string::npos);
+    FakeBoard mute(kHello);
+    mute.missed = 1'000'000;
+    options.port = mute.port;
+    EXPECT_NE(open_serial_arm(options).error().cause.find("sends no position"), std::string::npos);
     for (const char* line :
          {"tribo-arm 2;", "", "tribo-arm 1;max_n=x", "tribo-arm 1;max_n=-3", "tribo-arm 1;max_n=nan",
           "tribo-arm 1;rate_hz=1e9", "tribo-arm 1;resolution_mm="})

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 // Interval of the requests until the board has started.
 constexpr std::chrono::milliseconds kAskEvery{200};
-constexpr std::size_t kLongestLine = 400;
+constexpr std::size_t kLongestLine = 400, kShownOfLine = 60;
 // The servo calls an arm silent after 5 ms. Two ticks of 2 ms and one of the servo fit in: one position may
 // get lost.
 constexpr double kLeastRateHz = 500, kMostRateHz = 20'000;
@@ -85,6 +85,18 @@ class SerialArm final : public haptics::Device {
         limits_.name = facts_.name;
     }
     ~SerialArm() override { (void)write({}); }
+
+    // Waits for the first position. Returns false if none comes.
+    bool speaks(std::chrono::milliseconds most) {
+        haptics::HandReading reading;
+        const auto end = Clock::now() + most;
+        DeviceState state = read(reading);
+        while (state == DeviceState::silent && Clock::now() < end) {
+            (void)port_.wait(std::chrono::milliseconds(20));
+            state = read(reading);
+        }
+        return state == DeviceState::ready;
+    }
 
     const haptics::DeviceLimits& limits() const override { return limits_; }
 
@@ -211,8 +223,12 @@ Result<Port> open_port(const SerialArmOptions& options) {
     return port;
 }
 
+// The line with which an arm of any version answers begins with this.
+constexpr std::string_view kAnyHello = "tribo-arm ";
+
 // Returns the line that begins with the hello, and skips other text.
 Result<std::string> ask(Port& port, const SerialArmOptions& options) {
+    std::string other;  // the line of an arm of another version
     const auto end = Clock::now() + std::chrono::milliseconds(options.timeout_ms);
     auto next = Clock::now();
     std::string text;
@@ -227,14 +243,25 @@ Result<std::string> ask(Port& port, const SerialArmOptions& options) {
         const int count = port.read(bytes);
         if (count < 0) continue;  // the board restarts
         for (int n = 0; n < count; ++n) text.push_back(static_cast<char>(bytes[static_cast<std::size_t>(n)]));
-        const std::size_t from = text.find(TRIBO_ARM_HELLO);
+        const std::size_t from = text.find(kAnyHello);
         if (from != std::string::npos) {
-            // The library of Arduino ends its lines with CR LF.
             const std::size_t to = text.find('\n', from);
-            if (to != std::string::npos) return text.substr(from, to - from - (text[to - 1] == '\r' ? 1 : 0));
+            if (to == std::string::npos) continue;
+            // The library of Arduino ends its lines with CR LF.
+            std::string line = text.substr(from, to - from - (text[to - 1] == '\r' ? 1 : 0));
+            if (line.starts_with(TRIBO_ARM_HELLO)) return line;
+            other = std::move(line);
+            text.erase(0, to);
         } else if (text.size() > 2 * kLongestLine) {
             text.erase(0, text.size() - kLongestLine);
         }
+    }
+    if (!other.empty()) {
+        return fail(
+            "the arm on " + options.port + " answers '" + other.substr(0, kShownOfLine) +
+                "': it has another version of the packets than this Tribo, which expects '" TRIBO_ARM_HELLO
+                "'",
+            "build its firmware with the serial_packets.h of this Tribo");
     }
     return fail("nobody on " + options.port + " answers as a Tribo arm",
                 "load examples/serial_arm onto it, and see that both have the same baud rate (here " +
@@ -277,8 +304,9 @@ Result<SerialArmFacts> read_serial_arm_facts(std::string_view line) {
             const auto read = std::from_chars(value.data(), value.data() + value.size(), v);
             if (read.ec != std::errc() || read.ptr != value.data() + value.size() ||
                 !(v >= n.least && v <= n.most)) {
-                return fail("the arm says '" + std::string(fact.substr(0, 60)) + "': " + std::string(key) +
-                                " is a number from " + plain_number(n.least) + " to " + plain_number(n.most),
+                return fail("the arm says '" + std::string(fact.substr(0, kShownOfLine)) +
+                                "': " + std::string(key) + " is a number from " + plain_number(n.least) +
+                                " to " + plain_number(n.most),
                             "correct its firmware");
             }
             n.value = v;
@@ -299,7 +327,12 @@ Result<std::unique_ptr<haptics::Device>> open_serial_arm(const SerialArmOptions&
     if (!line) return std::unexpected(line.error());
     auto facts = read_serial_arm_facts(*line);
     if (!facts) return std::unexpected(facts.error());
-    return std::make_unique<SerialArm>(std::move(*port), std::move(*facts), options.mounting);
+    auto arm = std::make_unique<SerialArm>(std::move(*port), std::move(*facts), options.mounting);
+    if (!arm->speaks(std::chrono::milliseconds(options.timeout_ms))) {
+        return fail("the arm on " + options.port + " answers, but sends no position",
+                    "correct its firmware: it sends a packet of serial_packets.h at each of its ticks");
+    }
+    return arm;
 }
 
 }  // namespace tribo::devices
