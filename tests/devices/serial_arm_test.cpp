@@ -46,6 +46,8 @@ class FakeBoard {
     std::atomic<int> moving{0};  // steps of x a tick
     std::atomic<int> missed{0};  // so many of the next positions get lost
     std::atomic<bool> noisy{false};
+    std::atomic<bool> deaf{false};           // leaves what comes in the port
+    std::atomic<int> forces{0}, damaged{0};  // packets that have come
 
   private:
     void run() {
@@ -56,7 +58,7 @@ class FakeBoard {
         std::uint64_t drawn = 0;
         bool asked = false;
         while (!over_) {
-            const ssize_t count = ::read(handle_, bytes.data(), bytes.size());
+            const ssize_t count = deaf ? 0 : ::read(handle_, bytes.data(), bytes.size());
             for (ssize_t n = 0; n < count; ++n) {
                 if (bytes[static_cast<std::size_t>(n)] == TRIBO_ARM_ASK && !asked) {
                     asked = true;
@@ -68,8 +70,9 @@ class FakeBoard {
                 if (held.front() != TRIBO_FORCE_MARK) held.clear();
                 if (held.size() < TRIBO_FORCE_BYTES) continue;
                 tribo_force_mn force;
-                if (tribo_read_force(held.data(), &force) != 0)
-                    for (int i = 0; i < 3; ++i) mn[i] = force.mn[i];
+                const bool good = tribo_read_force(held.data(), &force) != 0;
+                ++(good ? forces : damaged);
+                for (int i = 0; good && i < 3; ++i) mn[i] = force.mn[i];
                 held.clear();
             }
             if (asked) {
@@ -199,6 +202,56 @@ TEST(SerialArm, finds_the_next_packet_behind_a_damaged_one) {
         ASSERT_TRUE(read_until(*device, reading, [] { return true; }));
         ASSERT_NEAR(reading.position_mm.x, 24.68, 1e-9);
     }
+}
+
+// A byte has ten bits on the line, and no force waits for longer than a packet takes there.
+TEST(SerialArm, leaves_out_the_forces_that_its_line_cannot_carry) {
+    FakeBoard board(kHello);
+    SerialArmOptions options;
+    options.port = board.port;
+    options.baud = 115'200;
+    auto device = open_serial_arm(options);
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    const auto begin = std::chrono::steady_clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    while (seconds() < 0.3) (*device)->write({0, 0, 1});
+    EXPECT_NE((*device)->trouble().find("baud"), std::string::npos);
+    device->reset();
+    const double carried = 115'200 * seconds() / (10 * TRIBO_FORCE_BYTES);
+    for (int n = 0; n < 2000 && board.mn[2] != 0; ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    EXPECT_EQ(board.mn[2], 0);
+    // One is under way at the end, one waits.
+    EXPECT_LE(board.forces, carried + 2);
+}
+
+TEST(SerialArm, sends_all_forces_or_none_of_their_bytes_and_refuses_while_none_go_out) {
+    FakeBoard board(kHello);
+    auto device = opened(board);
+    ASSERT_NE(device, nullptr);
+    for (int n = 0; n < 250; ++n) {
+        EXPECT_EQ(device->write({0, 0, 1}), DeviceState::ready);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ(device->trouble(), "");
+    board.deaf = true;
+    DeviceState state = DeviceState::ready;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (state == DeviceState::ready && std::chrono::steady_clock::now() < end)
+        state = device->write({0, 0, 1});
+    EXPECT_EQ(state, DeviceState::refused);
+    board.deaf = false;
+    ASSERT_TRUE([&] {
+        for (int n = 0; n < 3000 && board.mn[2] != 2000; ++n) {
+            state = device->write({0, 0, 2});
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return board.mn[2] == 2000;
+    }());
+    EXPECT_EQ(state, DeviceState::ready);
+    EXPECT_EQ(board.damaged, 0);
 }
 
 TEST(SerialArm, is_gone_where_its_port_closes) {

@@ -12,7 +12,9 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <span>
+#include <sys/ioctl.h>
 #include <termios.h>
+#include <thread>
 #include <unistd.h>
 
 #include "base/text/limit_text.hpp"
@@ -31,6 +33,14 @@ constexpr std::size_t kLongestLine = 400, kShownOfLine = 60;
 // The servo calls an arm silent after 5 ms. Two ticks of 2 ms and one of the servo fit in: one position may
 // get lost.
 constexpr double kLeastRateHz = 500, kMostRateHz = 20'000;
+// Start bit, eight bits, stop bit.
+constexpr unsigned kBitsPerByte = 10;
+// Without a packet for so long the firmware switches the force off.
+constexpr std::uint64_t kLetGoNs = 5'000'000;
+// A line is too slow if it has not taken so many of so many forces.
+constexpr int kForcesCounted = 200, kMostLeftOut = 10;
+// At the end, for the force of zero.
+constexpr std::chrono::milliseconds kLastForceTime{50};
 constexpr double kMnPerN = 1e3, kMostMn = 32767;
 // Number of positions for the speed.
 constexpr std::size_t kSpeedTicks = 8;
@@ -46,10 +56,16 @@ constexpr Rate kRates[] = {{115'200, B115200},   {230'400, B230400}, {460'800, B
                            {500'000, B500000},   {921'600, B921600}, {1'000'000, B1000000},
                            {2'000'000, B2000000}};
 
+using ForcePacket = std::array<std::uint8_t, TRIBO_FORCE_BYTES>;
+
+enum class Sent : std::uint8_t { whole, none, gone };
+
 class Port {
   public:
-    explicit Port(int handle) : handle_(handle) {}
-    Port(Port&& other) noexcept : handle_(std::exchange(other.handle_, -1)) {}
+    Port(int handle, int baud)
+        : handle_(handle),
+          packet_ns_(1'000'000'000ULL * kBitsPerByte * TRIBO_FORCE_BYTES / static_cast<unsigned>(baud)) {}
+    Port(Port&& other) noexcept : handle_(std::exchange(other.handle_, -1)), packet_ns_(other.packet_ns_) {}
     Port& operator=(Port&&) = delete;
     ~Port() {
         if (handle_ >= 0) ::close(handle_);
@@ -59,11 +75,30 @@ class Port {
     int read(std::span<std::uint8_t> into) noexcept {
         const ssize_t count = ::read(handle_, into.data(), into.size());
         if (count > 0) return static_cast<int>(count);
-        return count < 0 && (errno == EAGAIN || errno == EINTR) ? 0 : -1;
+        return count < 0 && must_wait() ? 0 : -1;
     }
-    // Returns false if the port is gone. Bytes that do not fit are lost: the next force is newer.
-    bool write(std::span<const std::uint8_t> bytes) noexcept {
-        return ::write(handle_, bytes.data(), bytes.size()) >= 0 || errno == EAGAIN || errno == EINTR;
+    // Returns false if the port is gone.
+    bool ask() noexcept {
+        const std::uint8_t question = TRIBO_ARM_ASK;
+        return ::write(handle_, &question, 1) >= 0 || must_wait();
+    }
+    // Sends the packet, or nothing of it where it would wait for longer than a packet takes on the line.
+    // Ticks that are late now and then lose no force so.
+    Sent send(const ForcePacket& packet) noexcept {
+        if (rest_ > 0) {
+            // A driver that is nearly full has taken a part of the last packet.
+            const ssize_t count = ::write(handle_, last_.data() + last_.size() - rest_, rest_);
+            if (count > 0) rest_ -= static_cast<std::size_t>(count);
+            return count >= 0 || must_wait() ? Sent::none : Sent::gone;
+        }
+        const std::uint64_t now = wall_ns();
+        if (free_ns_ > now + packet_ns_ || has_waiting_bytes()) return Sent::none;
+        const ssize_t count = ::write(handle_, packet.data(), packet.size());
+        if (count < 0) return must_wait() ? Sent::none : Sent::gone;
+        last_ = packet;
+        rest_ = last_.size() - static_cast<std::size_t>(count);
+        free_ns_ = std::max(free_ns_, now) + packet_ns_;
+        return Sent::whole;
     }
     bool wait(std::chrono::milliseconds most) const {
         pollfd poll{handle_, POLLIN, 0};
@@ -71,7 +106,18 @@ class Port {
     }
 
   private:
+    static bool must_wait() noexcept { return errno == EAGAIN || errno == EINTR; }
+    // Whether the driver still holds bytes. On USB the baud rate does not tell when they are sent.
+    bool has_waiting_bytes() const noexcept {
+        int count = 0;
+        return ::ioctl(handle_, TIOCOUTQ, &count) == 0 && count > 0;
+    }
+
     int handle_;
+    std::uint64_t packet_ns_;    // that a packet takes on the line
+    std::uint64_t free_ns_ = 0;  // when the line has sent the last packet
+    ForcePacket last_{};
+    std::size_t rest_ = 0;  // bytes of the last packet that are not sent
 };
 
 class SerialArm final : public haptics::Device {
@@ -84,7 +130,10 @@ class SerialArm final : public haptics::Device {
           longest_gap_ns_(static_cast<std::uint64_t>(1e9 * kLongestGap / facts_.rate_hz)) {
         limits_.name = facts_.name;
     }
-    ~SerialArm() override { (void)write({}); }
+    ~SerialArm() override {
+        const auto end = Clock::now() + kLastForceTime;
+        while (send({}) == Sent::none && Clock::now() < end) std::this_thread::sleep_for(kLastForceTime / 50);
+    }
 
     // Waits for the first position. Returns false if none comes.
     bool speaks(std::chrono::milliseconds most) {
@@ -123,22 +172,39 @@ class SerialArm final : public haptics::Device {
     }
 
     DeviceState write(Vec3 force_n) noexcept override {
+        const Sent sent = send(force_n);
+        if (sent == Sent::gone) gone_ = true;
+        if (gone_) return DeviceState::gone;
+        left_out_ += sent == Sent::none ? 1 : 0;
+        if (++forces_ % kForcesCounted == 0) {
+            if (left_out_ > kMostLeftOut) is_line_slow_ = true;
+            left_out_ = 0;
+        }
+        const std::uint64_t now = wall_ns();
+        if (sent == Sent::whole) sent_ns_ = now;
+        return now - sent_ns_ > kLetGoNs ? DeviceState::refused : DeviceState::ready;
+    }
+
+    std::string trouble() const override {
+        if (gone_) return "the serial arm is gone: its port has closed";
+        if (is_line_slow_) {
+            return "the line carries fewer forces than the servo makes, and some were not sent; take a "
+                   "higher baud rate (serial:PORT@BAUD, as in the firmware) or a lower --rate";
+        }
+        return {};
+    }
+
+  private:
+    Sent send(Vec3 force_n) noexcept {
         tribo_force_mn force{};
         for (int i = 0; i < 3; ++i) {
             const double mn = std::clamp(kMnPerN * force_n[i], -kMostMn, kMostMn);
             force.mn[i] = static_cast<std::int16_t>(std::lround(mn));
         }
-        std::array<std::uint8_t, TRIBO_FORCE_BYTES> packet{};
+        ForcePacket packet;
         tribo_write_force(&force, packet.data());
-        if (!port_.write(packet)) gone_ = true;
-        return gone_ ? DeviceState::gone : DeviceState::ready;
+        return port_.send(packet);
     }
-
-    std::string trouble() const override {
-        return gone_ ? "the serial arm is gone: its port has closed" : std::string();
-    }
-
-  private:
     // Takes the newest position from the received bytes. Returns false if there is none.
     bool take_packets() noexcept {
         bool any = false;
@@ -191,8 +257,10 @@ class SerialArm final : public haptics::Device {
     Vec3 place_;
     unsigned buttons_ = 0;
     std::uint64_t sequence_ = 0;
-    std::uint64_t tick_ = 0;  // of the arm; the low byte is the number of its last position
-    std::atomic<bool> gone_{false};
+    std::uint64_t tick_ = 0;     // of the arm; the low byte is the number of its last position
+    std::uint64_t sent_ns_ = 0;  // when the last force was sent
+    int forces_ = 0, left_out_ = 0;
+    std::atomic<bool> gone_{false}, is_line_slow_{false};
 };
 
 Result<Port> open_port(const SerialArmOptions& options) {
@@ -209,7 +277,7 @@ Result<Port> open_port(const SerialArmOptions& options) {
                         ? "give yourself the right to use it: join the group 'dialout', or add a udev rule"
                         : "plug the arm in, and see which /dev/ttyACM* or /dev/ttyUSB* comes");
     }
-    Port port(handle);
+    Port port(handle, options.baud);
     termios how{};
     if (::tcgetattr(handle, &how) != 0)
         return fail(options.port + " is not a serial port", "name the arm's /dev/ttyACM* or /dev/ttyUSB*");
@@ -234,8 +302,7 @@ Result<std::string> ask(Port& port, const SerialArmOptions& options) {
     std::string text;
     while (Clock::now() < end) {
         if (Clock::now() >= next) {
-            const std::uint8_t question = TRIBO_ARM_ASK;
-            if (!port.write({&question, 1})) break;
+            if (!port.ask()) break;
             next += kAskEvery;
         }
         (void)port.wait(std::chrono::milliseconds(20));

@@ -15,15 +15,16 @@ namespace tribo::devices {
 
 struct SerialArmOptions {
     std::string port;       // /dev/ttyACM0
-    int baud = 1'000'000;   // a standard rate of a real serial line; USB ignores it
+    int baud = 1'000'000;   // a standard rate of a real serial line; no more forces are sent than it carries
     int timeout_ms = 4000;  // for the first line of the arm (opening a port resets many boards), then for its
                             // first position
     Mounting mounting;
 };
 
-// Reads and writes on the servo thread, without waiting. The firmware of the arm switches the force off after
-// 5 ms without a force packet. Errors give a remedy: no port, no rights, no answer, another version, no
-// position.
+// Reads and writes on the servo thread, without waiting. A force that would have to wait for the line is
+// left out, and the next one is newer. After 5 ms without one the arm refuses. The firmware of the arm
+// switches the force off after 5 ms without a force packet. Errors give a remedy: no port, no rights, no
+// answer, another version, no position.
 Result<std::unique_ptr<haptics::Device>> open_serial_arm(const SerialArmOptions& options);
 
 // The first line of the arm. Missing values keep their defaults. A value that is no number or out of range is
