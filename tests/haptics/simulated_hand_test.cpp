@@ -122,9 +122,10 @@ class FadingHand final : public Device {
     }
     DeviceState write(Vec3 force) noexcept override {
         sent = force;
-        return drops ? DeviceState::gone : refuses ? DeviceState::refused : DeviceState::ready;
+        return answer;
     }
-    bool silent = false, gone = false, broken = false, refuses = false, drops = false;
+    bool silent = false, gone = false, broken = false;
+    DeviceState answer = DeviceState::ready;  // to a force
     Vec3 sent{9, 9, 9};
 
   private:
@@ -179,25 +180,28 @@ TEST(Servo, sends_nothing_to_a_device_that_is_gone) {
 }
 
 // An arm whose motors are off answers and gives no force: once they are on again it may not come at once.
-TEST(Servo, comes_back_by_the_ramp_where_a_device_has_refused) {
-    FadingHand hand;
-    Wall wall(1);
-    Servo servo(hand, wall, {});
-    int n = 0;
-    for (; n < 1000; ++n) servo.tick(n * 1e-3);
-    ASSERT_EQ(hand.sent.z, 1);
-    hand.refuses = true;
-    for (int k = 0; k < 4; ++k) servo.tick(n++ * 1e-3);
-    EXPECT_EQ(hand.sent, Vec3{});
-    EXPECT_EQ(servo.safety().fault(), Fault::device_refused);
-    hand.refuses = false;
-    double last = 0;
-    for (int k = 0; k < 1000; ++k) {
-        servo.tick(n++ * 1e-3);
-        EXPECT_LT(hand.sent.z, last + 0.01);
-        last = hand.sent.z;
+// Nor may the force of a device that only does not take it.
+TEST(Servo, comes_back_by_the_ramp_where_a_device_has_not_taken_its_force) {
+    for (const DeviceState answer : {DeviceState::refused, DeviceState::silent}) {
+        FadingHand hand;
+        Wall wall(1);
+        Servo servo(hand, wall, {});
+        int n = 0;
+        for (; n < 1000; ++n) servo.tick(n * 1e-3);
+        ASSERT_EQ(hand.sent.z, 1);
+        hand.answer = answer;
+        for (int k = 0; k < 4; ++k) servo.tick(n++ * 1e-3);
+        EXPECT_EQ(hand.sent, Vec3{});
+        EXPECT_EQ(servo.safety().fault(), Fault::device_refused);
+        hand.answer = DeviceState::ready;
+        double last = 0;
+        for (int k = 0; k < 1000; ++k) {
+            servo.tick(n++ * 1e-3);
+            EXPECT_LT(hand.sent.z, last + 0.01);
+            last = hand.sent.z;
+        }
+        EXPECT_EQ(hand.sent.z, 1);
     }
-    EXPECT_EQ(hand.sent.z, 1);
 }
 
 TEST(Servo, hears_from_the_answer_to_a_force_that_a_device_is_gone) {
@@ -206,7 +210,7 @@ TEST(Servo, hears_from_the_answer_to_a_force_that_a_device_is_gone) {
     Servo servo(hand, wall, {});
     int n = 0;
     for (; n < 100; ++n) servo.tick(n * 1e-3);
-    hand.drops = true;
+    hand.answer = DeviceState::gone;
     servo.tick(n++ * 1e-3);
     EXPECT_FALSE(servo.is_device_connected());
 }

@@ -34,7 +34,8 @@ class Device {
     // In the frame of its readings, as it is mounted.
     virtual const DeviceLimits& limits() const = 0;
     virtual DeviceState read(HandReading& reading) noexcept = 0;
-    // Force on the hand in N, stock frame.
+    // Force on the hand in N, stock frame. Any other answer than `ready` means that the hand does not feel
+    // it.
     virtual DeviceState write(Vec3 force_n) noexcept = 0;
     // Whether motors move the hand of a person. If not, the servo needs no ramp.
     virtual bool has_motors() const { return true; }

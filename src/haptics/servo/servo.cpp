@@ -54,7 +54,7 @@ ServoTick Servo::tick(double now_s) noexcept {
     tick.touching = felt.touching;
     const DeviceState taken = device_connected_ ? device_.write(tick.force_n) : DeviceState::gone;
     if (taken == DeviceState::gone) device_connected_ = false;
-    refused_ = taken == DeviceState::refused;
+    refused_ = taken != DeviceState::ready;  // whatever the reason, the hand does not feel this force
     max_force_ = std::max(max_force_, length(tick.force_n));
     last_now_s_ = now_s;
     ++ticks_;
