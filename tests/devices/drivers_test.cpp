@@ -27,7 +27,7 @@ class Driver {
         arm->plugged = true;
         arm->version = 3;
         arm->calibrated = arm->forces_on = arm->open = arm->expert = false;
-        arm->watchdog_fires = arm->force_off_cause = arm->style = 0;
+        arm->watchdog_fires = arm->force_off_cause = arm->force_fails = arm->style = 0;
         arm->styles = 4;
         arm->forget();
     }
@@ -198,6 +198,31 @@ TEST(ForceDimension, tells_codes_that_are_no_errors_from_those_that_are) {
     for (int n = 0; n < 30; ++n) (*device)->read(reading);
     EXPECT_EQ((*device)->read(reading), DeviceState::gone);
     EXPECT_NE((*device)->trouble().find("not connected"), std::string::npos);
+}
+
+// An arm whose positions come and whose forces do not.
+TEST(ForceDimension, refuses_while_no_force_is_taken_and_is_gone_where_that_goes_on) {
+    Driver driver(FAKE_DRD);
+    ForceDimensionOptions options;
+    options.driver = FAKE_DRD;
+    auto device = open_force_dimension(options);
+    ASSERT_TRUE(device.has_value());
+    haptics::HandReading reading;
+    const auto tick = [&] {
+        EXPECT_EQ((*device)->read(reading), DeviceState::ready);
+        return (*device)->write({0, 0, 1});
+    };
+    EXPECT_EQ(tick(), DeviceState::ready);
+    EXPECT_EQ((*device)->trouble(), "");
+    driver.arm->force_fails = 3;
+    for (int n = 0; n < 3; ++n) EXPECT_EQ(tick(), DeviceState::refused);
+    EXPECT_EQ(tick(), DeviceState::ready);
+    EXPECT_NE((*device)->trouble().find("has not taken its forces"), std::string::npos);
+    driver.arm->force_fails = 1000;
+    DeviceState state = DeviceState::refused;
+    for (int n = 0; n < 100 && state == DeviceState::refused; ++n) state = tick();
+    EXPECT_EQ(state, DeviceState::gone);
+    EXPECT_NE((*device)->trouble().find("has not taken its forces"), std::string::npos);
 }
 
 // As the SDK's own examples have it: open, look, and forces on when the loop begins; the watchdog, which is

@@ -23,6 +23,8 @@ constexpr unsigned char kWatchdog = 40;
 // Commands between two checks whether the forces are on; checks after which an earlier failure is forgotten;
 // number of attempts to switch the forces on again before the arm counts as gone.
 constexpr int kLookEvery = 64, kQuietLooks = 150, kMostRearmings = 3;
+// Failed readings or forces in a row after which the arm counts as gone; fewer are late.
+constexpr int kMostFailures = 20;
 constexpr double kMmPerM = 1e3;
 
 struct Api {
@@ -111,8 +113,11 @@ class ForceDimension final : public haptics::Device {
         std::array<double, 3> p{}, v{};
         const int place = api_.position(&p[0], &p[1], &p[2], id_);
         const int speed = api_.velocity(&v[0], &v[1], &v[2], id_);
-        if (place < 0 || speed < 0) return failed();
-        failures_ = 0;
+        if (place < 0 || speed < 0) {
+            lost_ = ++failed_reads_ >= kMostFailures;
+            return lost_ ? DeviceState::gone : DeviceState::silent;
+        }
+        failed_reads_ = 0;
         reading.position_mm =
             mounting_.origin_mm + mounting_.scale * kMmPerM * kNearRightUp.to_stock({p[0], p[1], p[2]});
         reading.velocity_mm_per_s = mounting_.scale * kMmPerM * kNearRightUp.to_stock({v[0], v[1], v[2]});
@@ -130,7 +135,11 @@ class ForceDimension final : public haptics::Device {
         if (!armed_) arm();
         const Vec3 f = kNearRightUp.from_stock(force_n);
         const int answer = api_.set_force(f.x, f.y, f.z, id_);
-        if (answer != 0 && answer != DHD_TIMEGUARD && answer != DHD_MOTOR_SATURATED) return failed();
+        if (answer != 0 && answer != DHD_TIMEGUARD && answer != DHD_MOTOR_SATURATED) {
+            takes_no_force_ = true;
+            return ++failed_writes_ >= kMostFailures ? DeviceState::gone : DeviceState::refused;
+        }
+        failed_writes_ = 0;
         if (++commands_ % kLookEvery == 0) look();
         if (given_up_) return DeviceState::gone;
         return forces_on_ ? DeviceState::ready : DeviceState::refused;
@@ -138,6 +147,8 @@ class ForceDimension final : public haptics::Device {
     std::string trouble() const override {
         if (lost_) return "not connected: " + words(api_.last_error());
         if (cause_ != 0) return std::string("the arm has switched its forces off ") + words_of(cause_);
+        if (takes_no_force_)
+            return "the arm has not taken its forces, or some of them: " + words(api_.last_error());
         if (no_watchdog_) {
             return "the arm has not taken a watchdog of 5 ms: should this program hang, its last force "
                    "stays; keep a hand on the force button";
@@ -175,13 +186,6 @@ class ForceDimension final : public haptics::Device {
             api_.enable_force(1, id_);
         }
     }
-    // A single failed call counts as late. After repeated failures the arm is gone.
-    DeviceState failed() noexcept {
-        constexpr int kGone = 20;
-        if (failures_ < kGone) ++failures_;
-        lost_ = failures_ >= kGone;
-        return lost_ ? DeviceState::gone : DeviceState::silent;
-    }
 
     SharedLibrary library_;
     Api api_;
@@ -190,10 +194,10 @@ class ForceDimension final : public haptics::Device {
     std::string name_;
     haptics::DeviceLimits limits_;
     std::uint64_t sequence_ = 0;
-    int failures_ = 0, commands_ = 0, rearmings_ = 0, quiet_looks_ = 0;
+    int failed_reads_ = 0, failed_writes_ = 0, commands_ = 0, rearmings_ = 0, quiet_looks_ = 0;
     bool wrist_ = false, armed_ = false, forces_on_ = true, given_up_ = false;
     std::atomic<int> cause_{0};  // 0: the forces are on
-    std::atomic<bool> no_watchdog_{false}, lost_{false};
+    std::atomic<bool> no_watchdog_{false}, lost_{false}, takes_no_force_{false};
 };
 
 }  // namespace

@@ -24,9 +24,10 @@ struct FakeArm {
     std::atomic<bool> expert{false};     // dhd: the watchdog may be set
     std::atomic<int> watchdog_fires{0};  // dhd: so many of the next commands come too late
     std::atomic<int> force_off_cause{0};
-    std::atomic<int> style{0};     // HD: of the last calibration
-    std::atomic<int> styles{4};    // HD: that the arm knows
-    std::atomic<int> stall_ms{0};  // HD's scheduler sleeps so long between ticks; 0: 1 ms
+    std::atomic<int> force_fails{0};  // dhd: so many of the next forces are not taken
+    std::atomic<int> style{0};        // HD: of the last calibration
+    std::atomic<int> styles{4};       // HD: that the arm knows
+    std::atomic<int> stall_ms{0};     // HD's scheduler sleeps so long between ticks; 0: 1 ms
 
     // The calls in their order; one that is repeated at once is written once.
     void called(const char* name) {

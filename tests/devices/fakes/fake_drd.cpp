@@ -64,6 +64,10 @@ unsigned int dhdGetButtonMask(char) {
 }
 int dhdSetForce(double x, double y, double z, char) {
     arm.called("dhdSetForce");
+    if (arm.force_fails > 0) {
+        --arm.force_fails;
+        return -1;
+    }
     if (arm.forces_on && arm.watchdog > 0 && arm.watchdog_fires > 0) {
         --arm.watchdog_fires;
         arm.forces_on = false;
