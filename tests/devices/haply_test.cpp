@@ -231,6 +231,24 @@ TEST(Haply, is_gone_when_the_service_closes) {
     EXPECT_FALSE((*device)->trouble().empty());
 }
 
+// The service runs on and answers.
+TEST(Haply, is_gone_when_the_service_has_lost_the_arm) {
+    for (const std::string& answer :
+         {std::string(R"({"inverse3": []})"), std::string(R"({"verse_grip": []})"),
+          std::string(R"({"error": "motor overheated"})"),
+          std::string(R"({"inverse3": [{"device_id": "FF", "state": {"cursor_position": )"
+                      R"({"x": 0, "y": 0, "z": 0}}}]})")}) {
+        std::atomic<int> left{5};
+        Service service(state_at(0, 0, 0),
+                        [&](const std::string&) { return left-- > 0 ? state_at(0, 0, 0.001) : answer; });
+        auto device = open_haply(at(service));
+        ASSERT_TRUE(device.has_value()) << device.error().text();
+        haptics::HandReading reading;
+        EXPECT_TRUE(haply_comes(**device, reading, DeviceState::gone)) << answer;
+        EXPECT_NE((*device)->trouble().find(answer.substr(0, 40)), std::string::npos) << (*device)->trouble();
+    }
+}
+
 TEST(Haply, is_silent_while_a_reply_is_late) {
     Service service(state_at(0, 0, 0), [&](const std::string&) {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/text/printable.hpp"
 #include "devices/arm/arm_exchange.hpp"
 #include "devices/servo/tick_clock.hpp"
 #include "net/websocket_client.hpp"
@@ -17,8 +18,12 @@ using haptics::DeviceState;
 using Json = nlohmann::json;
 
 constexpr double kMmPerM = 1e3;
-constexpr int kReplyMs = 100;  // time for one reply; then the loop checks whether it must end
-constexpr int kRepliesMissed = 50;
+// Most time for one reply. Without a position for so long the arm is gone: the service is silent, or answers
+// without it.
+constexpr int kReplyMs = 1000;
+constexpr std::uint64_t kGoneNs = kReplyMs * 1'000'000ULL;
+// Of an answer in a message.
+constexpr std::size_t kShownOfAnswer = 80;
 
 bool read_triple(const Json& parent, const char* key, Vec3& out) {
     const auto found = parent.find(key);
@@ -115,8 +120,7 @@ class Haply final : public haptics::Device {
         return DeviceState::ready;
     }
     std::string trouble() const override {
-        if (gone_.load(std::memory_order_acquire))
-            return "the service has closed the connection or fallen silent";
+        if (gone_.load(std::memory_order_acquire)) return why_gone_;
         if (!has_presets_) {
             return "Haply's Inverse Service is older than 3.5: the zero of the arm is at its base, not in "
                    "the "
@@ -137,17 +141,25 @@ class Haply final : public haptics::Device {
         readings_.publish();
     }
     void loop() {
+        using Got = net::WebSocketClient::Got;
         std::string text;
-        int missed = 0;
-        bool answered = true;
-        while (!closing_.load(std::memory_order_relaxed) && missed < kRepliesMissed) {
-            if (answered && !client_->send(haply_force_command(state_, command_.force_n()))) break;
-            const auto got = client_->receive(text);
-            if (got == net::WebSocketClient::Got::closed) break;
-            answered = got == net::WebSocketClient::Got::message;
-            missed = answered ? 0 : missed + 1;
-            if (answered && read_haply_state(text, state_)) publish();
+        auto got = Got::message;
+        std::uint64_t state_ns = wall_ns();
+        while (!closing_.load(std::memory_order_relaxed) && wall_ns() - state_ns < kGoneNs) {
+            const bool is_open =
+                got != Got::message || client_->send(haply_force_command(state_, command_.force_n()));
+            got = is_open ? client_->receive(text) : Got::closed;
+            if (got == Got::closed) break;
+            if (got == Got::message && read_haply_state(text, state_)) {
+                publish();
+                state_ns = wall_ns();
+            }
         }
+        why_gone_ = got == Got::closed ? "the service has closed the connection"
+                    : got == Got::late ? "the service has fallen silent"
+                                       : "the service gives no position of the Inverse3 any more (is it "
+                                         "unplugged or switched off?); it answers '" +
+                                             printable(text.substr(0, kShownOfAnswer)) + "'";
         gone_.store(true, std::memory_order_release);
     }
 
@@ -161,6 +173,7 @@ class Haply final : public haptics::Device {
     Snapshot<haptics::HandReading> readings_;
     ForceCommand command_;
     std::atomic<bool> closing_{false}, gone_{false};
+    std::string why_gone_;  // set before gone_
     std::thread thread_;
 };
 
@@ -200,8 +213,8 @@ std::string haply_force_command(const HaplyState& state, Vec3 force_n) {
 }
 
 Result<std::unique_ptr<haptics::Device>> open_haply(const HaplyOptions& options) {
-    auto client = net::WebSocketClient::connect({options.host, options.port},
-                                                std::min(options.timeout_ms, kReplyMs * 10));
+    auto client =
+        net::WebSocketClient::connect({options.host, options.port}, std::min(options.timeout_ms, kReplyMs));
     if (!client) {
         Error error = client.error();
         error.remedy = "install and start Haply's Inverse Service, version 3.5 or later";

@@ -22,9 +22,9 @@ struct HaplyOptions {
 
 // The service answers each message with the next state. The first message asks for the preset
 // "arm_front_centered": the zero of the arm is then the middle of its reach. Afterwards a separate thread
-// sends the newest force of the servo (zero after 5 ms without one) and receives the state. The servo
-// exchanges both through snapshots. Errors give a remedy: no service, no arm, not calibrated, another
-// version.
+// sends the newest force of the servo (zero after 5 ms without one) and receives the state. After 1 s without
+// a position, or when the connection closes, the arm is gone. The servo exchanges both through snapshots.
+// Errors give a remedy: no service, no arm, not calibrated, another version.
 Result<std::unique_ptr<haptics::Device>> open_haply(const HaplyOptions& options);
 
 // Reads one message of the service. A known `id` is kept. False if the message has no position of an
