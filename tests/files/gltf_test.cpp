@@ -79,6 +79,19 @@ TEST(Gltf, comes_back_in_millimetres_without_being_told_its_unit) {
     EXPECT_NEAR(bounds(metres->mesh).max.z, 0.03, 1e-7);
 }
 
+TEST(Gltf, shows_all_of_a_file_without_scenes) {
+    Json json = one_triangle();
+    json.erase("scene");
+    json.erase("scenes");
+    // A parent moves its child; a second node stands alone.
+    json["nodes"] = Json::parse(R"([{"mesh": 0}, {"children": [0], "translation": [0, 0, 5]}, {"mesh": 0}])");
+    const auto model = read_gltf(glb(json, bytes_of(kCorners)), {.source_name = "a.glb"});
+    ASSERT_TRUE(model.has_value()) << model.error().text();
+    EXPECT_EQ(model->mesh.triangles.size(), 2u);
+    const Box3 box = bounds(model->mesh);
+    EXPECT_EQ(box.size(), (Vec3{1, 5, 1}));
+}
+
 TEST(Gltf, is_in_metres_with_y_up_for_those_who_keep_to_the_standard) {
     const std::string bytes = written(tetrahedron());
     std::uint32_t length = 0;

@@ -109,6 +109,37 @@ TEST(Servo, lets_hand_and_wall_share_the_way_by_their_stiffness) {
     EXPECT_EQ(servo.ticks(), 4000U);
 }
 
+// A plugin may give a contact force without a touch: it is kept passive, too, and does not buzz.
+class PushFromAfar final : public ForceSource {
+  public:
+    RenderedForce render(const HandReading&, double now_s, double) noexcept override {
+        RenderedForce felt;
+        felt.simulation_s = now_s;
+        felt.contact_n = {0, 0, 1};
+        return felt;
+    }
+};
+
+TEST(Servo, keeps_a_contact_force_without_a_touch_passive) {
+    SimulatedHand hand(Stroke({{0, {}}, {2, {}}}), 1e-3);
+    PushFromAfar source;
+    SafetyLimits limits;
+    limits.max_force_n = 20;
+    limits.ramp_s = 0;
+    Servo servo(hand, source, limits);
+    double given_nmm = 0;
+    int jumps = 0;
+    ServoTick before = servo.tick(0);
+    for (int n = 1; n < 2000; ++n) {
+        const ServoTick now = servo.tick(n * 1e-3);
+        given_nmm += dot(before.force_n, now.position_mm - before.position_mm);
+        jumps += distance(now.force_n, before.force_n) > 0.5 ? 1 : 0;
+        before = now;
+    }
+    EXPECT_LE(given_nmm, 0.1 + 0.03);
+    EXPECT_LE(jumps, 2);
+}
+
 // A device whose readings stop coming.
 class FadingHand final : public Device {
   public:

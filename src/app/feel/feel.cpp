@@ -187,6 +187,18 @@ struct Part {
     Warnings warnings;
 };
 
+struct GivenFlag {
+    const char* flag;
+    bool is_given;
+};
+
+std::vector<GivenFlag> flags_of_a_cut(const FeelCall& call) {
+    return {{"--texture", !call.texture},
+            {"--scaling", call.compressive},
+            {"--profile", !call.profile.empty()},
+            {"--bake", !call.bake.empty()}};
+}
+
 FileResult<void> read_model(const FeelCall& call, Part& part) {
     const auto refuse = [&](std::string cause, std::string remedy) {
         return std::unexpected(FileFailure({call.job, 0, 0, std::move(cause), std::move(remedy)}));
@@ -194,15 +206,10 @@ FileResult<void> read_model(const FeelCall& call, Part& part) {
     if (call.mode == "cut") return refuse("a model has no cut to feel", "give a job, or --mode inspect");
     if (auto good = refuse_flags(call.program, call.job, "this is a model", "leave the flag out"); !good)
         return std::unexpected(FileFailure(good.error()));
-    const std::pair<const char*, bool> of_a_cut[] = {
-        {"--resolution", call.resolution_mm.has_value()},
-        {"--until", call.until_s.has_value()},
-        {"--texture", !call.texture},
-        {"--scaling", call.compressive},
-        {"--profile", !call.profile.empty()},
-        {"--bake", !call.bake.empty()},
-    };
-    for (const auto& [flag, is_given] : of_a_cut) {
+    std::vector<GivenFlag> of_a_job = flags_of_a_cut(call);
+    of_a_job.push_back({"--resolution", call.resolution_mm.has_value()});
+    of_a_job.push_back({"--until", call.until_s.has_value()});
+    for (const auto& [flag, is_given] : of_a_job) {
         if (is_given)
             return refuse(std::string(flag) + " belongs to a cut, and this is a model", "leave the flag out");
     }
@@ -346,6 +353,10 @@ int feel(const FeelCall& call) {
         const char* flag = call.arm.at_mm.empty() ? "--arm-scale" : "--arm-at";
         part.warnings.push_back(
             {call.job, 0, std::string(flag) + " says nothing without an arm: name one by --device"});
+    }
+    for (const auto& [flag, is_given] : flags_of_a_cut(call)) {
+        if (call.mode != "cut" && is_given)
+            part.warnings.push_back({call.job, 0, std::string(flag) + " says nothing without --mode cut"});
     }
     report(part.warnings);
     FeelSource felt(call, part.job, surface_n_per_mm, start_s, (*device)->limits());

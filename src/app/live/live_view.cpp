@@ -204,6 +204,10 @@ void LiveView::answer(const net::Inbox::Event& event, net::Server& server) {
             break;
         case Kind::disconnected:
             replayed_.erase(event.client);
+            if (held_ && held_->by == event.client) {
+                finger_.set_pointer(held_->at_mm, false);
+                held_.reset();
+            }
             break;
     }
 }
@@ -225,6 +229,8 @@ void LiveView::obey(const net::Inbox::Event& event, net::Server& server) {
     if (auto obeyed = controller_.obey(*command); !obeyed)
         return server.send_text(event.client, protocol::live_refusal(obeyed.error()));
     if (command->op == protocol::LiveOp::resync) replayed_[event.client].asked = true;
+    if (command->op == protocol::LiveOp::finger)
+        held_ = command->on ? std::optional<Held>({event.client, command->position_mm}) : std::nullopt;
 }
 
 }  // namespace tribo::app

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "app/live/live_audio.hpp"
 #include "app/live/web_files.hpp"
@@ -68,6 +69,12 @@ class LiveView {
         bool asked = false;
     };
     std::map<net::ClientId, Replayed> replayed_;
+    // The client that holds the finger down, and where: it is lifted when this client goes.
+    struct Held {
+        net::ClientId by;
+        Vec3 at_mm;
+    };
+    std::optional<Held> held_;
     std::unique_ptr<ForceBuilder> builder_;
     int force_changes_ = 0;       // last requested from the builder
     int sessions_ = 0;            // of the mill, seen last

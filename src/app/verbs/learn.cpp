@@ -144,9 +144,11 @@ FileResult<void> write_report(const LearnCall& call, const material::Material& m
     return files::write_file(report_file(call), report::learning_report(m, learned, voices));
 }
 
-FileResult<void> check_height_map(const LearnCall& call) {
+FileResult<void> check_pictures(const LearnCall& call) {
+    if (call.known.image.empty()) return {};
     const FileResult<files::Image> image = files::read_image(call.known.image);
     if (!image) return std::unexpected(image.error());
+    if (call.known.height_map.empty()) return {};
     const auto map = files::read_height_map(call.known.height_map, *image);
     if (!map) return std::unexpected(map.error());
     return {};
@@ -155,12 +157,7 @@ FileResult<void> check_height_map(const LearnCall& call) {
 int learn(const LearnCall& call) {
     FileResult<Sounds> sounds = read_sounds(call);
     if (!sounds) return report(sounds.error());
-    if (!call.known.image.empty() && !std::filesystem::is_regular_file(call.known.image)) {
-        return report(Error{call.known.image, 0, 0, "is no file", "give the image of the material"});
-    }
-    if (!call.known.height_map.empty()) {
-        if (const auto checked = check_height_map(call); !checked) return report(checked.error());
-    }
+    if (const auto checked = check_pictures(call); !checked) return report(checked.error());
     if (const auto checked =
             check_outputs({call.out, call.report ? report_file(call) : ""}, {call.known.image});
         !checked) {

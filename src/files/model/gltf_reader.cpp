@@ -310,6 +310,22 @@ bool skip_image(tinygltf::Image*, const int, std::string*, std::string*, int, in
     return true;
 }
 
+// A file may name no scene: then all that it holds is there.
+std::vector<int> nodes_without_parent(const tinygltf::Model& model) {
+    std::vector<bool> has_parent(model.nodes.size());
+    for (const tinygltf::Node& node : model.nodes) {
+        for (const int child : node.children) {
+            if (child >= 0 && static_cast<std::size_t>(child) < has_parent.size())
+                has_parent[static_cast<std::size_t>(child)] = true;
+        }
+    }
+    std::vector<int> roots;
+    for (std::size_t n = 0; n < has_parent.size(); ++n) {
+        if (!has_parent[n]) roots.push_back(static_cast<int>(n));
+    }
+    return roots;
+}
+
 }  // namespace
 
 Result<readers::Model> read_gltf(std::string_view bytes, const readers::ModelOptions& options) {
@@ -345,14 +361,18 @@ Result<readers::Model> read_gltf(std::string_view bytes, const readers::ModelOpt
     if (!model.scenes.empty()) {
         const int scene = std::clamp(model.defaultScene, 0, static_cast<int>(model.scenes.size()) - 1);
         roots = model.scenes[static_cast<std::size_t>(scene)].nodes;
+    } else {
+        roots = nodes_without_parent(model);
     }
     auto found = GltfReader(model, options, unit_mm.value_or(1)).read(roots);
     if (!found) return found;
     found->format = readers::ModelFormat::gltf;
     if (!unit_mm) {
-        found->warnings.push_back({file, 0,
-                                   "one unit of the glTF file is taken as 1 mm; where it keeps to the "
-                                   "standard's metre, write unit_mm = 1000"});
+        found->warnings.push_back(
+            {file, 0,
+             "one unit of the glTF file is taken as 1 mm; where it keeps to the "
+             "standard's metre, give the unit: unit_mm = 1000 in a job, --unit-mm 1000 of "
+             "a verb"});
     }
     model = {};
     return readers::finish_model(*std::move(found), options, readers::Weld::exact);

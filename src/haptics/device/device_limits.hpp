@@ -30,6 +30,7 @@ DeviceLimits scaled(DeviceLimits of_hand, double scale);
 const DeviceLimits& limits_of(std::string_view model);
 
 // Limits of simulated arms. They have no motors; the limits only keep the values reasonable.
-inline constexpr DeviceLimits kSimulatedLimits{"simulated", 20, 5, 0.03, 0};
+inline constexpr DeviceLimits kSimulatedLimits{"simulated", 20, 5, 0.03, 0},
+    kPlaybackLimits{"playback", 20, 5, 0.03, 0};
 
 }  // namespace tribo::haptics

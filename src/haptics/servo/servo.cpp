@@ -40,10 +40,12 @@ ServoTick Servo::tick(double now_s) noexcept {
         HandReading ahead = hand_;
         ahead.position_mm = ahead_.at(hand_.position_mm);
         felt = source_.render(ahead, now_s, step_s);
-        // A hand that does not yield cannot be pushed: there is nothing to keep passive.
-        wanted = felt.driven_n + (device_.yields()
-                                      ? passivity_.tick(felt.contact_n, hand_.position_mm, felt.touching)
-                                      : felt.contact_n);
+        // A hand that does not yield cannot be pushed: there is nothing to keep passive. A force from afar
+        // counts as a contact.
+        const bool pushes = felt.touching || felt.contact_n != Vec3{};
+        wanted =
+            felt.driven_n +
+            (device_.yields() ? passivity_.tick(felt.contact_n, hand_.position_mm, pushes) : felt.contact_n);
     }
     ServoTick tick;
     tick.now_s = now_s;

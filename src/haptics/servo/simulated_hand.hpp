@@ -88,7 +88,7 @@ class PlaybackHand final : public Device {
   public:
     PlaybackHand(Stroke stroke, double tick_s);
 
-    const DeviceLimits& limits() const override { return kSimulatedLimits; }
+    const DeviceLimits& limits() const override { return kPlaybackLimits; }
     bool has_motors() const override { return false; }
     bool yields() const override { return false; }
     DeviceState read(HandReading& reading) noexcept override;

@@ -25,6 +25,8 @@ Result<void> NumberTable::read_header() {
     if (!lines_.next(fields_)) return lines_.refuse(0, "the file holds no " + kind_, remedy);
     if (fields_.size() == 1 && fields_[0].text.find(';') != std::string_view::npos)
         return lines_.refuse(1, "the columns are separated by semicolons", "separate them by commas");
+    if (fields_.size() == 1 && fields_[0].text.find_first_of(" \t") != std::string_view::npos)
+        return lines_.refuse(1, "the columns are separated by blanks or tabs", "separate them by commas");
     place_.clear();
     for (const NumberColumn& column : columns_) {
         const auto is_it = [&](const CsvField& f) { return is_csv_column(f.text, column.name); };

@@ -167,6 +167,31 @@ TEST_F(Live, comes_back_whole_after_a_resume) {
                     .starts_with("HTTP/1.1 403"));
 }
 
+TEST_F(Live, lifts_the_finger_of_a_client_that_goes) {
+    RunningTribo engine({"live", "job.toml", "--resolution", "0.5", "--port", "0", "--web-root", "."},
+                        scratch_.path());
+    const Address at = address_in(engine.out_with("Ctrl-C"));
+    Viewer watching(at.port);
+    EXPECT_TRUE(watching.say(R"({"op":"pause"})") && watching.say(R"({"op":"mode","value":"inspect"})"));
+    // Whether the flag of contact of a finger frame comes to be this, within so many pictures.
+    const auto touches = [&](bool wanted) {
+        for (int n = 0; n < 300; ++n) {
+            const std::string frame = watching.frame_of(7);
+            if (frame.size() < 60) return false;
+            if (((frame[56] & 1) != 0) == wanted) return true;
+        }
+        return false;
+    };
+    {
+        Viewer pressing(at.port);
+        EXPECT_TRUE(pressing.say(R"({"op":"finger","position_mm":[10,5,3],"down":true})"));
+        EXPECT_TRUE(touches(false));
+        EXPECT_TRUE(pressing.say(R"({"op":"finger","position_mm":[10,5,-1],"down":true})"));
+        EXPECT_TRUE(touches(true));
+    }
+    EXPECT_TRUE(touches(false));
+}
+
 TEST_F(Live, goes_on_with_the_old_cut_while_a_file_is_wrong) {
     const std::string program = scratch_.get("p.nc"), job = scratch_.get("job.toml");
     RunningTribo engine(

@@ -41,6 +41,8 @@ TEST(StrokeCsv, RefusesWhatIsNoStrokeWithItsPlace) {
         {"", 1, 0, "no stroke"},
         {"\n#\n  \n", 3, 0, "no stroke"},
         {"t_s;x_mm;y_mm;z_mm\n", 1, 1, "semicolons"},
+        {"t_s\tx_mm\ty_mm\tz_mm\n", 1, 1, "blanks or tabs"},
+        {"t_s x_mm y_mm z_mm\n", 1, 1, "blanks or tabs"},
         {"0,0,0,0\n", 1, 1, "no column t_s"},
         {"t_s,x_mm,y_mm,force_n\n", 1, 1, "no column z_mm"},
         {"t_s,x_mm,y_mm,z_mm,x_mm\n", 1, 20, "x_mm stands there twice"},
