@@ -322,7 +322,7 @@ TEST_F(Feel, says_which_devices_there_are) {
 }
 
 TEST_F(Feel, refuses_what_it_cannot_feel) {
-    EXPECT_EQ(feel({"--device", "glove"}).code, 3);
+    EXPECT_EQ(feel({"--device", "glove"}).code, 2);
     EXPECT_EQ(feel({"--rate", "5"}).code, 2);
     EXPECT_EQ(feel({"--mode", "lick"}).code, 2);
     EXPECT_EQ(feel({"--stiffness", "-1"}).code, 2);

@@ -134,12 +134,14 @@ RC_GTEST_PROP(JoinedSweep, is_sampled_as_the_union, ()) {
     }
     for (std::size_t n = 0; n < one.size(); ++n) {
         const auto d = static_cast<double>(truth[n]);
-        RC_ASSERT(std::abs(static_cast<double>(all[n]) - d) < kSearched);
-        if (std::abs(d) < near - kSearched) {
-            RC_ASSERT(std::abs(static_cast<double>(close[n]) - d) < kSearched);
+        // Both are searched.
+        constexpr double kAlike = 2 * kSearched;
+        RC_ASSERT(std::abs(static_cast<double>(all[n]) - d) < kAlike);
+        if (std::abs(d) < near - kAlike) {
+            RC_ASSERT(std::abs(static_cast<double>(close[n]) - d) < kAlike);
         } else {
             const double side = d > 0 ? 1 : -1;
-            RC_ASSERT(side * static_cast<double>(close[n]) > near - 2 * kSearched);
+            RC_ASSERT(side * static_cast<double>(close[n]) > near - 2 * kAlike);
         }
     }
 }

@@ -57,6 +57,12 @@ class Shape {
     virtual void sample_near(const Lattice& lattice, double /*near_mm*/, float* out) const {
         sample(lattice, out);
     }
+    // Like sample_near(). Where the distance is not less than `known`, of one value a node, any value from
+    // there on will do.
+    virtual void sample_below(const Lattice& lattice, double near_mm, const float* /*known*/,
+                              float* out) const {
+        sample_near(lattice, near_mm, out);
+    }
 };
 
 }  // namespace tribo::field

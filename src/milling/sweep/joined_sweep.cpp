@@ -54,14 +54,9 @@ void JoinedSweep::sample_near(const field::Lattice& lattice, double near_mm, flo
     for (std::size_t n = 0; n < parts_.size(); ++n) {
         const std::size_t part = n == 0 ? likely : n <= likely ? n - 1 : n;
         if (!parts_[part]->bounds_mm().overlaps(nodes)) continue;
-        sample_part(part, lattice, near_mm, out, one.data());
+        parts_[part]->sample_below(lattice, near_mm, out, one.data());
         for (std::size_t n = 0; n < one.size(); ++n) out[n] = std::min(out[n], one[n]);
     }
-}
-
-void JoinedSweep::sample_part(std::size_t part, const field::Lattice& lattice, double near_mm,
-                              const float* /*known*/, float* out) const {
-    parts_[part]->sample_near(lattice, near_mm, out);
 }
 
 JoinedSweep::Least JoinedSweep::least(Vec3 point, double bound) const {

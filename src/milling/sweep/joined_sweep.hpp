@@ -33,9 +33,6 @@ class JoinedSweep : public field::Shape {
     virtual Least nearest_part(Vec3 point_mm, Least least) const;
     // Returns the part to begin with at a point.
     virtual std::size_t likely_part(Vec3 /*point_mm*/) const { return 0; }
-    // Samples one part. It needs to be exact only where it is less than `known`.
-    virtual void sample_part(std::size_t part, const field::Lattice& lattice, double near_mm,
-                             const float* known, float* out) const;
     const std::vector<std::unique_ptr<const field::Shape>>& parts() const { return parts_; }
 
   private:

@@ -14,8 +14,6 @@ using field::kLatticeEdge;
 
 // Larger than every distance, mm.
 constexpr double kNoBound = 1e30;
-// A path or turn that bends by less is straight but for rounding, mm and rad.
-constexpr double kStraight = 1e-9;
 // Surfaces that are nearer to each other than this meet in an edge, mm.
 constexpr double kEdgeMm = 1e-5;
 // Nearer to the axis of the tool than this the way from it is rounding: at a tip it would tell of a wall
@@ -28,10 +26,12 @@ Vec3 radial_of(Vec3 across) {
     return r > kOnAxis ? across / r : Vec3{};
 }
 
-// Calls distance(point, bound) for the nodes of a lattice. `near` and rows as in sweep_kernels.inl: where the
-// neighbour before shows that a node is farther than `near` from the surface, its bound is enough.
+// Calls distance(point, bound) for the nodes of a lattice, with `known` as the bound, if it is given. `near`
+// and rows as in sweep_kernels.inl: where the neighbour before shows that a node is farther than `near` from
+// the surface, its bound is enough.
 template <class F>
-void sample_nodes(const field::Lattice& lattice, double near_mm, float* out, const F& distance) {
+void sample_nodes(const field::Lattice& lattice, double near_mm, const float* known, float* out,
+                  const F& distance) {
     for (int n = 0; n < field::kLatticeNodes; ++n) {
         const int a = n % kLatticeEdge, b = n / kLatticeEdge % kLatticeEdge,
                   c = n / (kLatticeEdge * kLatticeEdge);
@@ -40,13 +40,16 @@ void sample_nodes(const field::Lattice& lattice, double near_mm, float* out, con
             if (!has) return;
             const double before = static_cast<double>(out[n - step]);
             above = std::max(above, before - lattice.cell_mm - kProvenMm);
-            below = std::min(below, before + lattice.cell_mm + kProvenMm);
+            // What is not below the known one is no distance but a bound from below.
+            if (known == nullptr || out[n - step] < known[n - step])
+                below = std::min(below, before + lattice.cell_mm + kProvenMm);
         };
         learn(a > 0, 1);
         learn(b > 0, kLatticeEdge);
         learn(c > 0, kLatticeEdge * kLatticeEdge);
-        const double known = above >= near_mm ? above : below <= -near_mm ? below : 0;
-        out[n] = static_cast<float>(known != 0 ? known : distance(lattice.node(a, b, c), near_mm));
+        const double bound = known == nullptr ? near_mm : std::min(near_mm, static_cast<double>(known[n]));
+        const double side = above >= near_mm ? above : below <= -near_mm ? below : 0;
+        out[n] = static_cast<float>(side != 0 ? side : distance(lattice.node(a, b, c), bound));
     }
 }
 
@@ -63,7 +66,8 @@ class LevelSweep : public field::Shape {
         sample_near(lattice, kNoBound, out);
     }
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        sample_nodes(lattice, near_mm, out, [this](Vec3 point, double) { return distance_mm(point); });
+        sample_nodes(lattice, near_mm, nullptr, out,
+                     [this](Vec3 point, double) { return distance_mm(point); });
     }
 
   protected:
@@ -140,7 +144,12 @@ class SearchedSweep final : public field::Shape {
     SearchedSweep(std::shared_ptr<const ConvexZones> zones, const motion::Move& move)
         : zones_(std::move(zones)), start_(move.start.tip_mm), line_(curved_line(move)) {
         box_ = curved_box({zones_->radius_mm(), zones_->length_mm()}, line_, start_);
-        instants_ = line_.bounds.turn < kStraight && line_.bounds.tip_bend < kStraight ? 2 : kMostInstants;
+        frame_.z = line_.axis0;
+        frame_.x = any_perpendicular(frame_.z);
+        frame_.y = cross(frame_.z, frame_.x);
+        turns_ = line_.axis1 != Vec3{} || line_.axis2 != Vec3{};
+        tip1_ = frame_.into(line_.tip1);
+        tip2_ = frame_.into(line_.tip2);
     }
 
     Box3 bounds_mm() const override { return box_; }
@@ -163,17 +172,37 @@ class SearchedSweep final : public field::Shape {
         sample_near(lattice, kNoBound, out);
     }
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
-        sample_nodes(lattice, near_mm, out,
-                     [this](Vec3 point, double near) { return least(point, near, near).distance; });
+        sample_below(lattice, near_mm, nullptr, out);
+    }
+    void sample_below(const field::Lattice& lattice, double near_mm, const float* known,
+                      float* out) const override {
+        sample_nodes(lattice, near_mm, known, out,
+                     [&](Vec3 point, double bound) { return least(point, bound, near_mm).distance; });
     }
 
   private:
-    static constexpr int kMostInstants = 5, kDepth = 40, kMostLooks = 400;
+    static constexpr int kDepth = 40, kMostLooks = 400;
 
     struct Least {
         double distance, t;
         std::size_t zone;
     };
+    // Where a point lies in the half plane of the tool, and how fast that changes.
+    struct Place {
+        PlanePoint at, rate;
+    };
+    // `d`: the point from the start of the tip; in the frame where the axis does not turn.
+    Place place(Vec3 d, double t) const {
+        if (turns_) {
+            const ZonesView v = zones_view(line_, d, t);
+            return {v.at, v.rate};
+        }
+        const Vec3 off = d - t * (tip1_ + t * tip2_), velocity = tip1_ + 2 * t * tip2_;
+        const double r = std::sqrt(off.x * off.x + off.y * off.y);
+        const double approach = off.x * velocity.x + off.y * velocity.y;
+        return {{r, off.z}, {r > kOnAxis ? -approach / r : 0, -velocity.z}};
+    }
+
     // The distance to a zone at one instant.
     struct Instant {
         double t, distance, slope;
@@ -183,9 +212,9 @@ class SearchedSweep final : public field::Shape {
         double floor;  // nothing between is lower
     };
 
-    Instant instant(std::size_t zone, const ZonesView& v, double t) const {
-        const ConvexZones::Seen seen = zones_->look(zone, v.at);
-        return {t, seen.distance_mm, dot(seen.normal, v.rate)};
+    Instant instant(std::size_t zone, const Place& p, double t) const {
+        const ConvexZones::Seen seen = zones_->look(zone, p.at);
+        return {t, seen.distance_mm, dot(seen.normal, p.rate)};
     }
 
     // The parabolas from both ends meet once; below neither of them is the least there or at an end.
@@ -219,10 +248,9 @@ class SearchedSweep final : public field::Shape {
         const TravelBounds& b = line_.bounds;
         const double reach = length(d - b.middle) + b.spread;
         const double curve = b.tip_bend + 2 * b.turn * b.speed + (b.turn_rate + b.turn * b.turn) * reach;
-        std::array<ZonesView, kMostInstants> views;
-        for (int k = 0; k < instants_; ++k)
-            views[static_cast<std::size_t>(k)] = zones_view(line_, d, time(k));
-        const ZonesView halfway = zones_view(line_, d, 0.5);
+        const Vec3 seen = turns_ ? d : frame_.into(d);
+        const Place first = place(seen, 0), last = place(seen, 1);
+        const PlanePoint halfway = zones_->size() > 1 ? place(seen, 0.5).at : PlanePoint{};
         const double speed = b.speed + b.turn * reach;
         Least best{bound, 0, 0};
         double lowest_floor = kNoBound;
@@ -245,23 +273,16 @@ class SearchedSweep final : public field::Shape {
             };
             // Where one of many zones may come in half of the travel is seen from the middle.
             if (zones_->size() > 1) {
-                const double nearest = zones_->look(zone, halfway.at).distance_mm - 0.5 * speed;
+                const double nearest = zones_->look(zone, halfway).distance_mm - 0.5 * speed;
                 if (nearest >= goal()) {
                     lowest_floor = std::min(lowest_floor, nearest);
                     continue;
                 }
             }
-            Instant before = instant(zone, views[0], 0);
-            take(before);
-            for (int k = 1; k < instants_; ++k) {
-                const Instant after = instant(zone, views[static_cast<std::size_t>(k)], time(k));
-                take(after);
-                push(stretch(before, after, bend));
-                before = after;
-            }
-            // The deepest first, so that the others may be left out.
-            std::sort(open.begin(), open.begin() + count,
-                      [](const Stretch& p, const Stretch& q) { return p.floor > q.floor; });
+            const Instant start = instant(zone, first, 0), end = instant(zone, last, 1);
+            take(start);
+            take(end);
+            push(stretch(start, end, bend));
             for (int look = 0; count > 0 && look < kMostLooks; ++look) {
                 const Stretch s = open[static_cast<std::size_t>(--count)];
                 if (s.floor >= goal()) {
@@ -269,7 +290,7 @@ class SearchedSweep final : public field::Shape {
                     continue;
                 }
                 const double t = next(s, bend, look);
-                const Instant middle = instant(zone, zones_view(line_, d, t), t);
+                const Instant middle = instant(zone, place(seen, t), t);
                 take(middle);
                 const Stretch left = stretch(s.a, middle, bend), right = stretch(middle, s.b, bend);
                 push(left.floor < right.floor ? right : left);
@@ -280,8 +301,6 @@ class SearchedSweep final : public field::Shape {
         if (best.distance >= far) best.distance = std::max(far, std::min(lowest_floor, best.distance));
         return best;
     }
-
-    double time(int k) const { return static_cast<double>(k) / (instants_ - 1); }
 
     PlanePoint edge_normal(const ZonesView& v, const Least& nearest) const {
         const PlanePoint normal = zones_->look(nearest.zone, v.at).normal;
@@ -296,7 +315,9 @@ class SearchedSweep final : public field::Shape {
     Vec3 start_;
     CurvedLine line_;
     Box3 box_;
-    int instants_ = 2;
+    bool turns_ = false;
+    Frame frame_;       // about the axis, where it does not turn
+    Vec3 tip1_, tip2_;  // the travel in this frame
 };
 
 }  // namespace

@@ -335,8 +335,8 @@ class CurvedSweep final : public field::Shape {
         sample_below(lattice, near_mm, nullptr, out);
     }
 
-    // Like sample_near(); with `known` exact only where the distance is less than that (sweep_kernels.hpp).
-    void sample_below(const field::Lattice& lattice, double near_mm, const float* known, float* out) const {
+    void sample_below(const field::Lattice& lattice, double near_mm, const float* known,
+                      float* out) const override {
         if (upright_) {
             sweep_kernels().upright(tool_, upright_->line(), upright_->frame(), line_, start_, lattice,
                                     near_mm, known, out);

@@ -140,11 +140,6 @@ class JoinedCurvedSweep final : public JoinedSweep {
     }
 
   private:
-    void sample_part(std::size_t n, const field::Lattice& lattice, double near_mm, const float* known,
-                     float* out) const override {
-        static_cast<const CurvedSweep&>(*parts()[n]).sample_below(lattice, near_mm, known, out);
-    }
-
     std::array<float, kMostParts> lower_bounds(Vec3 point) const {
         std::array<float, kMostParts> bounds;
         for (std::size_t n = 0; n < groups_.size(); ++n)
