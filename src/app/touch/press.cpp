@@ -142,25 +142,34 @@ int press(const PressCall& call) {
     Deepest deepest;
     readers::FingerPoint before;
     int touched_since = -1;  // the first frame of the contact; -1: none
-    for (int frame = 0; frame < frames; ++frame) {
-        const readers::FingerPoint at = finger.at(begin_s + frame / call.fps);
-        if (!(at.force_n > 0)) {
-            touched_since = -1;
-        } else if (touched_since < 0) {
-            touched_since = frame;
-        }
+    const auto contact_at = [&](const readers::FingerPoint& at) {
         elastic::ContactEllipse contact;
         contact.x_mm = at.x_mm;
         contact.y_mm = at.y_mm;
         contact.half_width_mm = contact.half_height_mm = call.radius_mm;
         contact.force_n = std::min(at.force_n, elastic::kMostForceN);
+        return contact;
+    };
+    for (int frame = 0; frame < frames; ++frame) {
+        const double t_s = begin_s + frame / call.fps;
+        const readers::FingerPoint half_way = finger.at(t_s - 0.5 / call.fps), at = finger.at(t_s);
+        if (!(at.force_n > 0)) {
+            touched_since = -1;
+        } else if (touched_since < 0) {
+            touched_since = frame;
+        }
+        elastic::ContactEllipse contact = contact_at(at);
         if (touched_since >= 0) contact.held_s = (frame - touched_since) / call.fps;
         if (touched_since >= 0 && frame > touched_since)
             pile.brush(contact, at.x_mm - before.x_mm, at.y_mm - before.y_mm);
         before = at;
         pile.rise(1 / call.fps);
+        // A frame shows what has been pressed until its time: nothing in the first one, then the finger half
+        // way from frame to frame. As published, implicit Euler takes the pressure at the end of each step,
+        // and steps before the first frame too.
+        if (!call.as_published) contact = contact_at(half_way);
         sheet.press({&contact, 1}, {call.contact, call.as_published});
-        sheet.step(1 / call.fps, scheme);
+        if (frame > 0 || call.as_published) sheet.step(1 / call.fps, scheme);
         note_depth(sheet, frame, deepest);
 
         const int bands = (call.size_px + kBandRows - 1) / kBandRows;

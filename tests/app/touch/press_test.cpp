@@ -101,8 +101,7 @@ TEST(Press, default_frames_do_not_depend_on_their_rate_and_never_rise) {
         scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n0,25,30,2\n1,25,30,2\n");
         const Outcome run = press(scratch, {"--heights", "--size", "48", "--fps", std::to_string(rate)});
         ASSERT_EQ(run.code, 0) << run.err;
-        // The frame at rate - 1 is the state after one second.
-        const std::vector<float> end = heights(scratch, rate - 1);
+        const std::vector<float> end = heights(scratch, rate);
         ASSERT_EQ(end.size(), std::size_t{kSize * kSize});
         if (at_30.empty()) at_30 = end;
         for (std::size_t i = 0; i < end.size(); ++i) {
@@ -111,6 +110,38 @@ TEST(Press, default_frames_do_not_depend_on_their_rate_and_never_rise) {
         }
         // Under the finger: 2 N over 4 N/mm, five time constants on.
         EXPECT_NEAR(end[24 * kSize + 20], -0.5 * (1 - std::exp(-5)), 0.01);
+    }
+}
+
+// A finger over the middle of node 20, 24. Under it the depth is that of one spring and damper.
+std::vector<double> depths_under(const std::string& stroke, int rate) {
+    Scratch scratch;
+    scratch.put("m.json", material(4, 0.8));
+    scratch.put("s.csv", "t_s,x_mm,y_mm,force_n\n" + stroke);
+    const Outcome run = press(scratch, {"--heights", "--size", "48", "--fps", std::to_string(rate)});
+    EXPECT_EQ(run.code, 0) << run.err;
+    std::vector<double> depths;
+    for (int frame = 0; frame <= rate; ++frame) {
+        const std::vector<float> e = heights(scratch, frame);
+        depths.push_back(e.empty() ? NAN : -e[24 * kSize + 20]);
+    }
+    return depths;
+}
+
+TEST(Press, a_frame_shows_the_depth_at_its_own_time) {
+    for (const int rate : {20, 60, 144, 500}) {
+        const std::vector<double> sudden = depths_under(
+            "0,25.625,30.625,0\n0.4999,25.625,30.625,0\n0.5,25.625,30.625,2\n1,25.625,30.625,2\n", rate);
+        const std::vector<double> growing = depths_under("0,25.625,30.625,0\n1,25.625,30.625,2\n", rate);
+        // A force that grows is taken as constant from frame to frame: off by at most its growth dt^2 / (12
+        // tau).
+        const double chords = 0.5 / (12 * 0.2 * rate * rate) + 1e-5;
+        for (int frame = 0; frame <= rate; ++frame) {
+            const auto n = static_cast<std::size_t>(frame);
+            const double t = 1.0 * frame / rate, held = std::max(t - 0.5, 0.0);
+            EXPECT_NEAR(sudden[n], 0.5 * (1 - std::exp(-held / 0.2)), 1e-5) << rate << ' ' << t;
+            EXPECT_NEAR(growing[n], 0.5 * (t - 0.2 * (1 - std::exp(-t / 0.2))), chords) << rate << ' ' << t;
+        }
     }
 }
 
