@@ -124,11 +124,11 @@ TEST(ArModel, pairs_of_lines_as_close_as_rounding_allows_are_found) {
     EXPECT_LT(w[0], w[1]);
 }
 
-// Two resonances and a slope, at 44.1 kHz.
-ArModel resonant() {
+// Pairs of poles at these frequencies and radii.
+ArModel with_poles(double rate_hz, std::initializer_list<std::pair<double, double>> poles) {
     std::vector<double> a{1};
-    for (const auto& [hz, r] : {std::pair{1800.0, 0.97}, {5200.0, 0.94}, {9000.0, 0.9}, {200.0, 0.8}}) {
-        const double b = -2 * r * std::cos(2 * std::numbers::pi * hz / 44100), c = r * r;
+    for (const auto& [hz, r] : poles) {
+        const double b = -2 * r * std::cos(2 * std::numbers::pi * hz / rate_hz), c = r * r;
         std::vector<double> next(a.size() + 2);
         for (std::size_t n = 0; n < a.size(); ++n) {
             next[n] += a[n];
@@ -138,8 +138,14 @@ ArModel resonant() {
         a = next;
     }
     a.erase(a.begin());
-    ArModel model{44100, std::vector<double>(a.size())};
+    ArModel model{rate_hz, std::vector<double>(a.size())};
     reflection_of(a, model.reflection);
+    return model;
+}
+
+// Two resonances and a slope, at 44.1 kHz.
+ArModel resonant() {
+    ArModel model = with_poles(44100, {{1800, 0.97}, {5200, 0.94}, {9000, 0.9}, {200, 0.8}});
     model.reflection.resize(50);  // poles to spare
     return model;
 }
@@ -162,6 +168,32 @@ TEST(ArModel, at_another_rate_keeps_its_spectrum_in_hertz) {
         for (int n = 0; n < 4000; ++n)
             inside += power_at(model, std::min(rate, 44100.0) / 8000 * (n + 0.5)) / 4000;
         EXPECT_NEAR(power, inside * std::min(rate / 44100, 1.0), 2e-3) << rate;
+    }
+}
+
+// As many poles as the spectrum has at its own rate draw neither it nor its edge in a wider band.
+TEST(ArModel, at_any_rate_a_few_poles_keep_their_third_octaves) {
+    const ArModel models[] = {with_poles(8000, {{800, 0.97}, {3000, 0.9}}),
+                              with_poles(22050, {{2500, 0.95}, {6000, 0.9}}),
+                              with_poles(44100, {{1500, 0.97}, {4000, 0.9}}),
+                              {16000, {}},
+                              resonant()};
+    for (const ArModel& model : models) {
+        for (const double rate : {8000.0, 16000.0, 44100.0, 48000.0, 96000.0, 192000.0}) {
+            double power = 0;
+            const ArModel moved = at_rate(model, rate, &power);
+            const double top_hz = 0.45 * std::min(rate, model.sample_rate_hz);
+            for (double low = 100; 1.26 * low < top_hz; low *= 1.26) {
+                double was = 0, is = 0;
+                for (int n = 0; n < 100; ++n) {
+                    const double hz = low * (1 + 0.26 * (n + 0.5) / 100);
+                    was += power_at(model, hz) / model.sample_rate_hz;
+                    is += power * power_at(moved, hz) / rate;
+                }
+                EXPECT_NEAR(10 * std::log10(is / was), 0, 0.3)
+                    << model.sample_rate_hz << ' ' << model.reflection.size() << ' ' << rate << ' ' << low;
+            }
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/counted_allocations.hpp"
 #include "base/noise_hash.hpp"
+#include "noise/learn/sound_statistics.hpp"
 #include "noise/voices.hpp"
 
 namespace tribo::noise {
@@ -150,6 +151,33 @@ TEST(FrictionVoice, runs_at_the_rate_of_a_servo_with_the_level_of_its_band) {
     double power = 0;
     for (int n = 0; n < 2000; ++n) power += power_at(voices.models[1].spectrum, n + 0.5) / 24000;
     EXPECT_NEAR(db(level), db(0.05) + 10 * std::log10(power), 0.2);
+}
+
+// Recorded at 8 kHz: 4 poles there, 192 at 48 kHz, 512 at 192 kHz.
+TEST(FrictionVoice, sounds_the_same_at_a_higher_rate) {
+    MaterialVoices voices = three_speeds(8000);
+    voices.models = {voices.models[1]};
+    const ArModel& model = voices.models[0].spectrum;
+    for (const double rate : {48000.0, 96000.0, 192000.0}) {
+        FrictionVoice voice(voices, {.sample_rate_hz = rate});
+        voice.set_target(100, 1);
+        const std::vector<float> sound = rendered(voice, static_cast<std::size_t>(20 * rate));
+        EXPECT_NEAR(db(rms(sound)), db(0.05), 0.2) << rate;
+        const std::size_t frame = 65536;
+        const std::vector<double> heard =
+            power_spectrum(std::vector<double>(sound.begin(), sound.end()), frame);
+        const double step = rate / static_cast<double>(frame);
+        for (double low = 200; 1.26 * low < 3600; low *= 1.26) {
+            double was = 0, is = 0;
+            for (auto k = static_cast<std::size_t>(low / step); static_cast<double>(k) * step < 1.26 * low;
+                 ++k) {
+                was += 0.05 * 0.05 * power_at(model, (static_cast<double>(k) + 0.5) * step) / 8000;
+                is += heard[k] / rate;
+            }
+            // 20 s of 52 Hz and more tell a level to 0.13 dB.
+            EXPECT_NEAR(10 * std::log10(is / was), 0, 0.6) << rate << ' ' << low;
+        }
+    }
 }
 
 TEST(FrictionVoice, never_allocates_once_it_stands) {

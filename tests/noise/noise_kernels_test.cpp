@@ -77,7 +77,7 @@ TEST(NoiseKernels, all_pole_filter_follows_the_recursion_at_every_order) {
     constexpr int kCount = 4096;
     std::vector<float> x(kCount);
     noise_kernels().gaussian(3, 0, x.data(), kCount);
-    for (int order = 0; order <= kLargestOrder; order = order < 20 ? order + 1 : order + 9) {
+    for (int order = 0; order <= kLargestPlayedOrder; order = order < 20 ? order + 1 : order + 9) {
         const Filter filter(order);
         std::vector<float> y(static_cast<std::size_t>(order) + kCount + 16, 0.0F);
         noise_kernels().all_pole(filter.predictor.data(), order, filter.response.data(), 0.5F, x.data(),

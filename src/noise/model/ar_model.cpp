@@ -157,14 +157,17 @@ void predictor_from_line_spectrum(std::span<const double> angles, std::span<doub
 
 ArModel at_rate(const ArModel& model, double sample_rate_hz, double* power) {
     if (power) *power = 1;
-    ArModel moved{sample_rate_hz, model.reflection};
-    if (sample_rate_hz == model.sample_rate_hz) return moved;
+    if (sample_rate_hz == model.sample_rate_hz) return model;
     // Autocorrelation of the spectrum on a grid of the new band, by the trapezoid rule. It is exact, except
     // for responses longer than the grid.
     constexpr int kGrid = 4096;
     // Beyond the old band the spectrum falls by 60 dB per octave, down to 60 dB below the mean.
     constexpr double kFloor = 1e-6;
-    const std::size_t order = model.reflection.size();
+    // A few poles give the spectrum at their own rate exactly, but no edge at the old half rate.
+    constexpr double kFewPoles = 32;
+    const double wider = std::max(sample_rate_hz / model.sample_rate_hz, 1.0);
+    const double poles = std::max(static_cast<double>(model.reflection.size()), kFewPoles) * wider;
+    const auto order = static_cast<std::size_t>(std::min(std::ceil(poles), 1.0 * kLargestPlayedOrder));
     const std::vector<double> predictor = predictor_of(model.reflection);
     const double innovation = innovation_power(model.reflection);
     const double half_old = 0.5 * model.sample_rate_hz;
@@ -192,8 +195,7 @@ ArModel at_rate(const ArModel& model, double sample_rate_hz, double* power) {
         }
     }
     if (power) *power = inside * sample_rate_hz / model.sample_rate_hz;
-    moved.reflection = levinson(r, 1e-9);
-    return moved;
+    return {sample_rate_hz, levinson(r, 1e-9)};
 }
 
 }  // namespace tribo::noise

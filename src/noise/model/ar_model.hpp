@@ -15,6 +15,8 @@ namespace tribo::noise {
 
 // Largest number of poles in a voice and in a material file.
 inline constexpr int kLargestOrder = 128;
+// The same at another sample rate (at_rate): what ModelNoise plays.
+inline constexpr int kLargestPlayedOrder = 512;
 // Larger reflection coefficients decay more slowly than any friction sound (and than float can represent).
 inline constexpr double kLargestReflection = 0.999999;
 
@@ -51,9 +53,10 @@ std::vector<double> line_spectrum_of(std::span<const double> reflection);
 void predictor_from_line_spectrum(std::span<const double> angles, std::span<double> predictor,
                                   std::span<double> work);
 
-// Returns a model with the same spectrum in Hz and the same number of poles at another sample rate. Below the
-// old half rate the spectrum is kept; above it there is almost no power. `power`: share of the old power in
-// the new band.
+// Returns a model with the same spectrum in Hz at another sample rate. Below the old half rate the spectrum
+// is kept; above it there is almost no power. Poles are spread over the whole band, so a wider band gets more
+// of them, in proportion to its width, up to kLargestPlayedOrder. `power`: share of the old power in the new
+// band.
 ArModel at_rate(const ArModel& model, double sample_rate_hz, double* power = nullptr);
 
 }  // namespace tribo::noise

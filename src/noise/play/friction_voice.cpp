@@ -40,7 +40,7 @@ FrictionVoice::FrictionVoice(const MaterialVoices& voices, const FrictionOptions
         double power = 1;
         models.push_back(at_rate(v.spectrum, options.sample_rate_hz, &power));
         band_.push_back(static_cast<float>(std::sqrt(power)));
-        order = std::max(order, v.spectrum.reflection.size());
+        order = std::max(order, models.back().reflection.size());
     }
     const CounterNoise seeds(options.seed);
     if (options.interpolation == Interpolation::line_spectrum && !options.as_published) {

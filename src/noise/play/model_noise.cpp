@@ -20,7 +20,7 @@ ModelNoise::ModelNoise(const ArModel& model, const TextureModel* texture, std::u
     : kernels_(&noise_kernels()),
       key_(CounterNoise(seed).bits(0)),
       order_(static_cast<int>(model.reflection.size())) {
-    assert(order_ <= kLargestOrder);
+    assert(order_ <= kLargestPlayedOrder);
     if (texture) texture_.emplace(*texture, model.sample_rate_hz, seed);
     retune(predictor_of(model.reflection), std::sqrt(innovation_power(model.reflection)));
     seek(0);
@@ -51,9 +51,9 @@ void ModelNoise::make(std::uint64_t index, double travel_mm) {
     } else {
         kernels_->gaussian(key, first, white.data(), kNoiseBlock);
     }
-    std::copy_n(y_.begin() + kNoiseBlock, kLargestOrder, y_.begin());
+    std::copy_n(y_.begin() + kNoiseBlock, kLargestPlayedOrder, y_.begin());
     kernels_->all_pole(predictor_.data(), order_, response_.data(), gain_, white.data(),
-                       y_.data() + kLargestOrder, kNoiseBlock);
+                       y_.data() + kLargestPlayedOrder, kNoiseBlock);
     made_ = index;
 }
 
@@ -70,7 +70,7 @@ void ModelNoise::seek(std::uint64_t index) {
 
 std::span<const float, kNoiseBlock> ModelNoise::block(std::uint64_t index, double travel_mm) {
     if (made_ != index) make(index, travel_mm);
-    return std::span<const float, kNoiseBlock>(y_.data() + kLargestOrder, kNoiseBlock);
+    return std::span<const float, kNoiseBlock>(y_.data() + kLargestPlayedOrder, kNoiseBlock);
 }
 
 void ModelNoise::render(std::uint64_t first, std::span<double> out) {

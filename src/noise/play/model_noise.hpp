@@ -18,7 +18,8 @@ struct NoiseKernels;
 inline constexpr int kNoiseBlock = 64;
 
 // Construction may allocate; everything else is real-time safe. One thread at a time. Costs about 4 ns a
-// sample at order 50. The input of the filter never stops, so there are no subnormal numbers.
+// sample at order 50, in proportion to the order. The input of the filter never stops, so there are no
+// subnormal numbers.
 class ModelNoise {
   public:
     // `model` at the sample rate of the output (at_rate). Streams of different seeds are independent.
@@ -50,10 +51,10 @@ class ModelNoise {
     std::optional<TextureExcitation> texture_;
     int order_ = 0;
     float gain_ = 1;
-    std::uint64_t made_ = ~std::uint64_t{0};                   // number of the block in y_
-    std::array<float, kLargestOrder> predictor_{};             // a_1 ...
-    std::array<float, 31> response_{};                         // 15 zeros, 1 / A
-    std::array<float, kLargestOrder + kNoiseBlock + 16> y_{};  // past, block
+    std::uint64_t made_ = ~std::uint64_t{0};                         // number of the block in y_
+    std::array<float, kLargestPlayedOrder> predictor_{};             // a_1 ...
+    std::array<float, 31> response_{};                               // 15 zeros, 1 / A
+    std::array<float, kLargestPlayedOrder + kNoiseBlock + 16> y_{};  // past, block
 };
 
 }  // namespace tribo::noise

@@ -24,7 +24,7 @@ struct NoiseKernels {
 
     // y[n] = gain x[n] - a_1 y[n-1] - ... - a_p y[n-p], in blocks of 16, in two steps: first the response to
     // past blocks, then the recursion within the block as a product with the impulse response.
-    //   predictor  a_1 ... a_order, order <= kLargestOrder
+    //   predictor  a_1 ... a_order, order <= kLargestPlayedOrder
     //   response   31 numbers: 15 zeros, then the first 16 samples of 1 / A
     //   past       the `order` samples before y, oldest first, directly before `y` in memory; y has room for
     //              count + 16 and needs no initial content
