@@ -9,9 +9,12 @@
 #include <rapidcheck/gtest.h>
 
 #include "noise/model/levinson.hpp"
+#include "noise/voices.hpp"
 
 namespace tribo::noise {
 namespace {
+
+using test::with_poles;
 
 // Reflection coefficients of any order up to `most` and any size up to 0.95.
 rc::Gen<std::vector<double>> any_reflection(int most) {
@@ -122,25 +125,6 @@ TEST(ArModel, pairs_of_lines_as_close_as_rounding_allows_are_found) {
     EXPECT_NEAR(w[0], angle, 1e-5);
     EXPECT_NEAR(w[1], angle, 1e-5);
     EXPECT_LT(w[0], w[1]);
-}
-
-// Pairs of poles at these frequencies and radii.
-ArModel with_poles(double rate_hz, std::initializer_list<std::pair<double, double>> poles) {
-    std::vector<double> a{1};
-    for (const auto& [hz, r] : poles) {
-        const double b = -2 * r * std::cos(2 * std::numbers::pi * hz / rate_hz), c = r * r;
-        std::vector<double> next(a.size() + 2);
-        for (std::size_t n = 0; n < a.size(); ++n) {
-            next[n] += a[n];
-            next[n + 1] += b * a[n];
-            next[n + 2] += c * a[n];
-        }
-        a = next;
-    }
-    a.erase(a.begin());
-    ArModel model{rate_hz, std::vector<double>(a.size())};
-    reflection_of(a, model.reflection);
-    return model;
 }
 
 // Two resonances and a slope, at 44.1 kHz.

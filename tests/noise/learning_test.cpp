@@ -9,9 +9,12 @@
 #include "noise/learn/sound_statistics.hpp"
 #include "noise/learn/voice_quality.hpp"
 #include "noise/model/levinson.hpp"
+#include "noise/voices.hpp"
 
 namespace tribo::noise {
 namespace {
+
+using test::with_poles;
 
 // RMS difference in dB between two power densities at 50 Hz steps from 200 Hz to `to_hz`. Both are scaled to
 // the same mean logarithm, so only the shape counts.
@@ -29,24 +32,7 @@ double log_spectral_distance_db(const ArModel& a, const ArModel& b, double to_hz
 
 // Poles of two resonances on a falling slope: the process of known spectrum that recordings are drawn from.
 ArModel known_model(double rate_hz) {
-    std::vector<double> a{1};
-    const auto pole = [&](double hz, double r) {
-        const double b = -2 * r * std::cos(2 * std::numbers::pi * hz / rate_hz), c = r * r;
-        std::vector<double> next(a.size() + 2);
-        for (std::size_t n = 0; n < a.size(); ++n) {
-            next[n] += a[n];
-            next[n + 1] += b * a[n];
-            next[n + 2] += c * a[n];
-        }
-        a = next;
-    };
-    pole(900, 0.97);
-    pole(3500, 0.95);
-    pole(200, 0.7);
-    a.erase(a.begin());
-    ArModel model{rate_hz, std::vector<double>(a.size())};
-    reflection_of(a, model.reflection);
-    return model;
+    return with_poles(rate_hz, {{900, 0.97}, {3500, 0.95}, {200, 0.7}});
 }
 
 // Driven by the standard library's Gaussian numbers, sample by sample.
@@ -115,6 +101,51 @@ TEST(Learning, finds_the_spectrum_of_a_known_process_within_1_dB) {
             EXPECT_FALSE(m.texture) << "Gaussian noise has no texture";
         }
     }
+}
+
+// Where a quarter of a second, or a stroke between two rests, holds less than a frame of the spectrum.
+TEST(Learning, finds_the_order_of_slow_recordings_and_of_short_strokes) {
+    struct Case {
+        double rate_hz, stroke_s;  // 0: without rests
+    };
+    for (const auto& [rate, stroke_s] : {Case{4000, 0},
+                                         {5000, 0},
+                                         {4000, 0.2},
+                                         {8000, 0.2},
+                                         {8000, 0.1},
+                                         {11025, 0.1},
+                                         {16000, 0.05},
+                                         {44100, 0.05},
+                                         {44100, 0.03}}) {
+        const ArModel truth = with_poles(rate, {{0.2 * rate, 0.95}, {0.3 * rate, 0.9}});
+        std::vector<double> x = drawn(truth, static_cast<std::size_t>(12 * rate), 0.05, 5);
+        if (stroke_s > 0) {
+            const auto on = static_cast<std::size_t>(stroke_s * rate),
+                       off = static_cast<std::size_t>(0.1 * rate);
+            for (std::size_t n = 0; n < x.size(); ++n)
+                if (n % (on + off) >= on) x[n] = 0;
+        }
+        const Recording r = recorded(100, x, rate);
+        const auto learned = learn({&r, 1});
+        ASSERT_TRUE(learned) << learned.error().text();
+        EXPECT_GE(learned->order, 4) << rate << ' ' << stroke_s;
+        EXPECT_LE(learned->order, 20) << rate << ' ' << stroke_s;
+        EXPECT_LT(log_spectral_distance_db(learned->voices.models[0].spectrum, truth, 0.45 * rate), 1)
+            << rate << ' ' << stroke_s;
+    }
+}
+
+// More poles than half of the samples of each stroke.
+TEST(Learning, takes_any_order_from_any_strokes) {
+    const ArModel truth = with_poles(4000, {{800, 0.95}});
+    std::vector<double> x = drawn(truth, 40000, 0.05, 5);
+    for (std::size_t n = 0; n < x.size(); ++n)
+        if (n % 400 >= 200) x[n] = 0;
+    const Recording r = recorded(100, x, 4000);
+    const auto learned = learn({&r, 1}, {.order = 120});
+    ASSERT_TRUE(learned);
+    EXPECT_NEAR(learned->voices.models[0].level_db, level_db(0.05), 0.5);
+    EXPECT_LT(log_spectral_distance_db(learned->voices.models[0].spectrum, truth, 1800), 3);
 }
 
 TEST(Learning, brings_fast_recordings_down_and_keeps_their_spectrum) {
@@ -242,6 +273,13 @@ TEST(SoundStatistics, are_those_of_known_sounds) {
     double mean = 0;
     for (const double p : power_spectrum(x)) mean += p / 512;
     EXPECT_NEAR(mean, 0.25, 0.005);
+    // The same of pieces shorter than a frame.
+    std::vector<std::span<const double>> pieces;
+    for (std::size_t n = 0; n + 700 <= x.size(); n += 700) pieces.push_back(std::span(x).subspan(n, 700));
+    double mean_db = 0, pieces_db = 0;
+    for (const double p : spectrum_db(x)) mean_db += p / 512;
+    for (const double p : spectrum_db(pieces)) pieces_db += p / 512;
+    EXPECT_NEAR(pieces_db - level_db(std::sqrt(700.0 * static_cast<double>(pieces.size()))), mean_db, 0.05);
     std::vector<double> sine(100000);
     for (std::size_t n = 0; n < sine.size(); ++n) sine[n] = std::sin(0.1 * static_cast<double>(n));
     EXPECT_NEAR(kurtosis(sine), 1.5, 1e-3);

@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
+#include <numbers>
+#include <utility>
 #include <vector>
 
 #include "noise/model/material_voices.hpp"
@@ -21,6 +24,25 @@ inline MaterialVoices three_speeds(double rate_hz = 48000) {
     }
     voices.law = fit_level_law(voices.models);
     return voices;
+}
+
+// All-pole noise of pairs of poles at these frequencies and radii.
+inline ArModel with_poles(double rate_hz, std::initializer_list<std::pair<double, double>> poles) {
+    std::vector<double> a{1};
+    for (const auto& [hz, r] : poles) {
+        const double b = -2 * r * std::cos(2 * std::numbers::pi * hz / rate_hz), c = r * r;
+        std::vector<double> next(a.size() + 2);
+        for (std::size_t n = 0; n < a.size(); ++n) {
+            next[n] += a[n];
+            next[n + 1] += b * a[n];
+            next[n + 2] += c * a[n];
+        }
+        a = next;
+    }
+    a.erase(a.begin());
+    ArModel model{rate_hz, std::vector<double>(a.size())};
+    reflection_of(a, model.reflection);
+    return model;
 }
 
 inline double rms(const std::vector<float>& x) {

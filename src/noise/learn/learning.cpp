@@ -104,7 +104,7 @@ WindowedPower windowed_power(std::span<const std::span<const double>> pieces, do
     for (const std::span<const double> piece : pieces) {
         const std::size_t length = std::min(piece.size(), frame);
         if (length < shortest) continue;  // mostly window
-        for (std::size_t at = 0; at + length <= piece.size(); at += length / 2) {
+        for (std::size_t at = 0; at + length <= piece.size(); at += std::max<std::size_t>(length / 2, 1)) {
             std::ranges::fill(x, 0.0);
             for (std::size_t n = 0; n < length; ++n) {
                 const double phase =
@@ -225,8 +225,9 @@ Result<std::vector<PreparedRecording>> prepared_all(std::span<const Recording> r
 
 std::vector<double> windowed_autocorrelation(std::span<const std::span<const double>> pieces,
                                              double sample_rate_hz, double highpass_hz, int lags) {
-    const WindowedPower power = windowed_power(pieces, sample_rate_hz, highpass_hz, kAutocorrelationFrame,
-                                               2 * (static_cast<std::size_t>(lags) + 1));
+    const std::size_t shortest = shortest_of_use(pieces, 2 * (static_cast<std::size_t>(lags) + 1));
+    const WindowedPower power =
+        windowed_power(pieces, sample_rate_hz, highpass_hz, kAutocorrelationFrame, shortest);
     const std::size_t half = power.bins.size() - 1;
     std::vector<std::complex<double>> x(2 * half);
     for (std::size_t k = 0; k < x.size(); ++k) x[k] = power.bins[k <= half ? k : 2 * half - k];

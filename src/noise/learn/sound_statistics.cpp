@@ -86,17 +86,20 @@ std::vector<double> modulation_density(std::span<const double> sound, double sam
 
 std::vector<double> power_spectrum(std::span<const double> sound, std::size_t frame) {
     assert((frame & (frame - 1)) == 0);
-    std::vector<double> window(frame), power(frame / 2);
+    std::vector<double> power(frame / 2);
+    if (sound.empty()) return power;
+    std::vector<double> window(std::min(sound.size(), frame));
     double weight = 0;
-    for (std::size_t n = 0; n < frame; ++n) {
-        window[n] =
-            0.5 - 0.5 * math::cos(math::kTwoPi * (static_cast<double>(n) + 0.5) / static_cast<double>(frame));
+    for (std::size_t n = 0; n < window.size(); ++n) {
+        window[n] = 0.5 - 0.5 * math::cos(math::kTwoPi * (static_cast<double>(n) + 0.5) /
+                                          static_cast<double>(window.size()));
         weight += window[n] * window[n];
     }
     std::vector<std::complex<double>> x(frame);
     std::size_t count = 0;
-    for (std::size_t at = 0; at + frame <= sound.size(); at += frame / 2, ++count) {
-        for (std::size_t n = 0; n < frame; ++n) x[n] = window[n] * sound[at + n];
+    for (std::size_t at = 0; at + window.size() <= sound.size(); at += frame / 2, ++count) {
+        std::ranges::fill(x, 0.0);
+        for (std::size_t n = 0; n < window.size(); ++n) x[n] = window[n] * sound[at + n];
         fourier(x);
         for (std::size_t k = 0; k < power.size(); ++k) {
             // Half of each neighbouring line belongs to the band between them.
@@ -113,10 +116,17 @@ std::vector<double> spectrum_db(std::span<const double> sound) {
     return power;
 }
 
+std::size_t shortest_of_use(std::span<const std::span<const double>> pieces, std::size_t wanted) {
+    std::size_t longest = 0;
+    for (const std::span<const double> piece : pieces) longest = std::max(longest, piece.size());
+    return std::min(wanted, longest / 2);
+}
+
 std::vector<double> spectrum_db(std::span<const std::span<const double>> pieces) {
     std::vector<double> sum(kSpectrumFrame / 2);
+    const std::size_t shortest = shortest_of_use(pieces, kSpectrumFrame);
     for (const std::span<const double> piece : pieces) {
-        if (piece.size() < kSpectrumFrame) continue;
+        if (piece.size() < shortest) continue;
         const std::vector<double> power = power_spectrum(piece, kSpectrumFrame);
         for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += static_cast<double>(piece.size()) * power[k];
     }

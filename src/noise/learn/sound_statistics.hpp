@@ -24,11 +24,17 @@ std::vector<double> modulation_density(std::span<const double> sound, double sam
                                        std::span<const double> hz);
 
 // Power density in `bands` equal steps of frequency from 0 to half the rate, as band means. It is the mean
-// over half-overlapping frames of `frame` samples under a Hann window. Its mean is the mean square.
+// over half-overlapping frames of `frame` samples (a power of two) under a Hann window. Shorter sound is one
+// frame under a window of its own length, padded with zeros. Its mean is the mean square.
 std::vector<double> power_spectrum(std::span<const double> sound, std::size_t frame = 1024);
 
-// The same with frames of 1024 samples, in dB, of one sound or of pieces; no frame spans two pieces.
-// spectrum_hz() gives the frequencies of the bands, the last function the spectrum of a model at them.
+// Spectra need pieces of `wanted` samples, as shorter ones are mostly window. Returns the length from which
+// on pieces are of use: `wanted`, or half of the longest piece where that is less.
+std::size_t shortest_of_use(std::span<const std::span<const double>> pieces, std::size_t wanted);
+
+// The same with frames of 1024 samples, in dB, of one sound or of pieces (of those of use); no frame spans
+// two pieces. spectrum_hz() gives the frequencies of the bands, the last function the spectrum of a model at
+// them.
 std::vector<double> spectrum_db(std::span<const double> sound);
 std::vector<double> spectrum_db(std::span<const std::span<const double>> pieces);
 std::vector<double> spectrum_hz(double sample_rate_hz);
