@@ -99,6 +99,19 @@ RC_GTEST_PROP(ArModel, line_spectrum_leads_back_to_the_predictor, ()) {
 }
 
 // Ascending angles stay ascending on the way between, and ascending angles are a stable filter.
+TEST(ArModel, line_spectrum_leads_back_at_every_order_that_is_played) {
+    for (const std::size_t order : {50, 91, 128, 255, 512}) {
+        std::vector<double> k(order), back(order), work(2 * (order + 2));
+        for (std::size_t n = 0; n < order; ++n) {
+            const auto m = static_cast<double>(n);
+            k[n] = (n % 2 == 0 ? -0.8 : 0.6) / (1 + 0.3 * m) * std::cos(0.7 * m);
+        }
+        predictor_from_line_spectrum(line_spectrum_of(k), back, work);
+        const std::vector<double> a = predictor_of(k);
+        for (std::size_t n = 0; n < order; ++n) EXPECT_NEAR(back[n], a[n], 1e-7) << order;
+    }
+}
+
 RC_GTEST_PROP(ArModel, between_two_line_spectra_every_filter_is_stable, ()) {
     const auto order = static_cast<std::size_t>(*rc::gen::inRange(1, 31));
     const auto some = [&] {

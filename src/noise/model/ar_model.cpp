@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -143,9 +144,14 @@ void predictor_from_line_spectrum(std::span<const double> angles, std::span<doub
     if (order % 2 == 0) multiply(p, p_degree, 1, 0);
     multiply(q, q_degree, -1, 0);
     if (order % 2 == 1) multiply(q, q_degree, 1, 0);
-    for (std::size_t n = 0; n < order; ++n) {
-        const double b = -2 * math::cos(angles[n]);
-        if (n % 2 == 0) {
+    // Neighbouring angles one after the other would make huge coefficients that cancel in the end. Numbers
+    // with their bits reversed are spread evenly at any time.
+    for (std::size_t n = 0, steps = std::bit_ceil(order); n < steps && order > 0; ++n) {
+        std::size_t at = 0;
+        for (std::size_t bit = 1; bit < steps; bit *= 2) at = 2 * at + (n & bit ? 1 : 0);
+        if (at >= order) continue;
+        const double b = -2 * math::cos(angles[at]);
+        if (at % 2 == 0) {
             multiply(p, p_degree, b, 1);
         } else {
             multiply(q, q_degree, b, 1);
