@@ -100,7 +100,7 @@ RC_GTEST_PROP(ArModel, line_spectrum_leads_back_to_the_predictor, ()) {
 
 // Ascending angles stay ascending on the way between, and ascending angles are a stable filter.
 TEST(ArModel, line_spectrum_leads_back_at_every_order_that_is_played) {
-    for (const std::size_t order : {50, 91, 128, 255, 512}) {
+    for (const std::size_t order : {50U, 91U, 128U, 255U, 512U}) {
         std::vector<double> k(order), back(order), work(2 * (order + 2));
         for (std::size_t n = 0; n < order; ++n) {
             const auto m = static_cast<double>(n);
