@@ -9,7 +9,7 @@ import { bundle } from "../tools/bundle.js";
 import { COMPONENT, MODULES } from "../tools/places.js";
 
 /** What a page may have to fetch for the component, packed. */
-const MOST_BYTES = 39_000;
+const MOST_BYTES = 39_100;
 
 /** Removes declarations that the entries do not import, directly or through others. */
 async function keepReachable(folder: string, entries: string[]): Promise<void> {
