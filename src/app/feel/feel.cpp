@@ -6,9 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
