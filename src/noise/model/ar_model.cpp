@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cassert>
 #include <cmath>
 
@@ -39,14 +38,11 @@ double lag(std::span<const double> reflection, double angle) {
     return theta;
 }
 
-// Multiplies a polynomial of `degree` by 1 + b z^-1 + c z^-2, in place.
+// Multiplies a polynomial of `degree`, with zeros behind it, by 1 + b z^-1 + c z^-2, in place.
 void multiply(std::span<double> polynomial, std::size_t& degree, double b, double c) {
-    const std::size_t grows = c != 0 ? 2 : 1;
-    for (std::size_t n = degree + 1; n <= degree + grows; ++n) polynomial[n] = 0;
-    degree += grows;
-    for (std::size_t n = degree; n > 0; --n) {
-        polynomial[n] += b * polynomial[n - 1] + (n > 1 ? c * polynomial[n - 2] : 0);
-    }
+    degree += c != 0 ? 2 : 1;
+    for (std::size_t n = degree; n > 1; --n) polynomial[n] += b * polynomial[n - 1] + c * polynomial[n - 2];
+    polynomial[1] += b * polynomial[0];
 }
 
 }  // namespace
@@ -140,22 +136,20 @@ void predictor_from_line_spectrum(std::span<const double> angles, std::span<doub
     // pi belong to the polynomial that they complete to degree p + 1.
     const std::span<double> p = work.first(order + 2), q = work.subspan(order + 2, order + 2);
     std::size_t p_degree = 0, q_degree = 0;
+    std::ranges::fill(work, 0.0);
     p[0] = q[0] = 1;
     if (order % 2 == 0) multiply(p, p_degree, 1, 0);
     multiply(q, q_degree, -1, 0);
     if (order % 2 == 1) multiply(q, q_degree, 1, 0);
-    // Neighbouring angles one after the other would make huge coefficients that cancel in the end. Numbers
-    // with their bits reversed are spread evenly at any time.
-    for (std::size_t n = 0, steps = std::bit_ceil(order); n < steps && order > 0; ++n) {
-        std::size_t at = 0;
-        for (std::size_t bit = 1; bit < steps; bit *= 2) at = 2 * at + (n & bit ? 1 : 0);
+    // Neighbouring angles one after the other would make huge coefficients that cancel in the end. At steps
+    // of the golden section (two Fibonacci numbers) they are spread evenly at any time.
+    constexpr std::size_t kTurn = 987, kStep = 610;
+    static_assert(kTurn > kLargestPlayedOrder);
+    for (std::size_t n = 0; n < kTurn; ++n) {
+        const std::size_t at = n * kStep % kTurn;
         if (at >= order) continue;
-        const double b = -2 * math::cos(angles[at]);
-        if (at % 2 == 0) {
-            multiply(p, p_degree, b, 1);
-        } else {
-            multiply(q, q_degree, b, 1);
-        }
+        const bool is_of_p = at % 2 == 0;
+        multiply(is_of_p ? p : q, is_of_p ? p_degree : q_degree, -2 * math::cos(angles[at]), 1);
     }
     assert(p_degree == order + 1 && q_degree == order + 1);
     for (std::size_t n = 0; n < order; ++n) predictor[n] = 0.5 * (p[n + 1] + q[n + 1]);
@@ -182,7 +176,7 @@ ArModel at_rate(const ArModel& model, double sample_rate_hz, double* power) {
     for (int n = 0; n <= kGrid; ++n) {
         const double angle = math::kPi * n / kGrid;
         const double hz = sample_rate_hz * n / (2.0 * kGrid);
-        const double weight = (n == 0 || n == kGrid ? 0.5 : 1.0) / kGrid;
+        const double weight = (n % kGrid == 0 ? 0.5 : 1.0) / kGrid;
         double s = innovation /
                    squared_size(predictor, math::kTwoPi * std::min(hz, half_old) / model.sample_rate_hz);
         if (hz <= half_old) {

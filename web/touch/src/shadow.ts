@@ -3,7 +3,7 @@
 
 const kStyle = `
 :host { display: block; position: relative; contain: content; }
-:host([hidden]) { display: none; }
+:host([hidden]), [hidden] { display: none; }
 .surface { position: relative; overflow: hidden; cursor: grab; user-select: none; -webkit-user-select: none;
   -webkit-touch-callout: none; -webkit-tap-highlight-color: transparent; touch-action: var(--tribo-touch-action, none);
   border-radius: var(--tribo-radius, 0); outline-offset: 2px; }
@@ -14,12 +14,10 @@ img, canvas { display: block; width: 100%; height: auto; }
 canvas { position: absolute; inset: 0; height: 100%; visibility: hidden; }
 .drawn canvas { visibility: visible; }
 .cover { position: absolute; inset: 0; pointer-events: none; }
-.cover img { width: 100%; height: 100%; object-fit: cover; }
-.cover ::slotted(*) { width: 100%; height: 100%; object-fit: cover; }
+.cover img, .cover ::slotted(*) { width: 100%; height: 100%; object-fit: cover; }
 .probe { position: absolute; width: 28px; height: 28px; margin: -14px; border: 2px solid #fff; border-radius: 50%;
   box-shadow: 0 0 0 2px #000a; pointer-events: none; }
 .probe.down { background: #fff5; }
-[hidden] { display: none; }
 .spoken { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }
 `;
 
