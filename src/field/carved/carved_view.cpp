@@ -5,6 +5,12 @@
 #include <array>
 
 namespace tribo::field {
+namespace {
+
+// No solid is as deep as this, mm.
+constexpr float kBelowAll = -1e30F;
+
+}  // namespace
 
 double CarvedView::distance_mm(Vec3 p) const {
     double d = field_.distance_mm(p);
@@ -48,32 +54,47 @@ std::optional<Vec3> CarvedView::overlap(const Shape& shape, double depth_mm) con
     const BrickCoord n = field_.size(), lo = field_.brick_at(reach.min), hi = field_.brick_at(reach.max);
     const double radius = field_.brick_radius_mm();
     std::optional<Vec3> place;
-    float deepest = static_cast<float>(-depth_mm);
-    std::array<float, kLatticeNodes> other, own, carved;
+    // A brick that was cut knows no greater depth than near_mm.
+    auto deepest = static_cast<float>(-std::min(depth_mm, field_.near_mm()));
+    std::array<float, kLatticeNodes> own, least, other;
+    // Raises the distances to what is in `sampled` too. True if a node is deeper than all before.
+    const auto raise = [&](const std::array<float, kLatticeNodes>& sampled, float sign) {
+        bool is_deeper = false;
+        for (std::size_t at = 0; at < kLatticeNodes; ++at) {
+            own[at] = std::max(own[at], sign * sampled[at]);
+            is_deeper |= own[at] < deepest;
+        }
+        return is_deeper;
+    };
+    const auto overlaps = [&](BrickCoord brick) {
+        const BrickRef ref = field_.ref(brick);
+        const Vec3 c = field_.centre(brick);
+        if (ref == kAir || shape.distance_below(c, radius) >= radius) return false;
+        if (ref == kUntouched && field_.blank().distance_mm(c) > radius) return false;
+        const Lattice nodes = field_.lattice(brick);
+        field_.sample_nodes(brick, own.data());
+        shape.sample(nodes, other.data());
+        bool is_deeper = raise(other, 1);
+        for (std::size_t at = 0; is_deeper && at < pending_.size(); ++at) {
+            const Shape& gone = *pending_[at].shape;
+            if (gone.distance_below(c, radius) >= radius) continue;
+            // Of the nodes that are no deeper no distance is asked.
+            for (std::size_t node = 0; node < kLatticeNodes; ++node)
+                least[node] = own[node] < deepest ? -own[node] : kBelowAll;
+            gone.sample_below(nodes, radius, least.data(), other.data());
+            is_deeper = raise(other, -1);
+        }
+        return is_deeper;
+    };
     for (int k = std::max(lo.k, 0); k <= std::min(hi.k, n.k - 1); ++k) {
         for (int j = std::max(lo.j, 0); j <= std::min(hi.j, n.j - 1); ++j) {
             for (int i = std::max(lo.i, 0); i <= std::min(hi.i, n.i - 1); ++i) {
-                const BrickRef ref = field_.ref({i, j, k});
-                const Vec3 c = field_.centre({i, j, k});
-                if (ref == kAir || shape.distance_mm(c) > radius) continue;
-                if (ref == kUntouched && field_.blank().distance_mm(c) > radius) continue;
-                const Lattice nodes = field_.lattice({i, j, k});
-                shape.sample(nodes, other.data());
-                field_.sample_nodes({i, j, k}, own.data());
-                for (const PendingShape& pending : pending_) {
-                    if (pending.shape->distance_mm(c) > radius) continue;
-                    pending.shape->sample(nodes, carved.data());
-                    for (std::size_t at = 0; at < kLatticeNodes; ++at)
-                        own[at] = std::max(own[at], -carved[at]);
-                }
-                for (int at = 0; at < kLatticeNodes; ++at) {
-                    const auto node = static_cast<std::size_t>(at);
-                    const float d = std::max(other[node], own[node]);
-                    if (d >= deepest) continue;
-                    deepest = d;
-                    place = nodes.node(at % kLatticeEdge, at / kLatticeEdge % kLatticeEdge,
-                                       at / (kLatticeEdge * kLatticeEdge));
-                }
+                if (!overlaps({i, j, k})) continue;
+                const auto node = std::min_element(own.begin(), own.end());
+                deepest = *node;
+                const int at = static_cast<int>(node - own.begin());
+                place = field_.lattice({i, j, k}).node(at % kLatticeEdge, at / kLatticeEdge % kLatticeEdge,
+                                                       at / (kLatticeEdge * kLatticeEdge));
             }
         }
     }

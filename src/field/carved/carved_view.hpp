@@ -32,7 +32,8 @@ class CarvedView {
     // known.
     const Shape* emptied_by(Vec3 point_mm, double skin_mm) const;
     // Returns the node of material that lies deepest in `shape`, if any is deeper than `depth_mm`: the place
-    // where a tool holder or a fixture collides. Finds overlaps down to about a cell.
+    // where a tool holder or a fixture collides. Finds overlaps down to about a cell. On a grid so fine that
+    // near_mm of the field is less than `depth_mm`, that depth is enough.
     std::optional<Vec3> overlap(const Shape& shape, double depth_mm) const;
 
   private:

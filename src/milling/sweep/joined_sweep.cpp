@@ -45,10 +45,17 @@ void JoinedSweep::sample(const field::Lattice& lattice, float* out) const {
 }
 
 void JoinedSweep::sample_near(const field::Lattice& lattice, double near_mm, float* out) const {
+    sample_below(lattice, near_mm, nullptr, out);
+}
+
+void JoinedSweep::sample_below(const field::Lattice& lattice, double near_mm, const float* known,
+                               float* out) const {
     constexpr int kLast = field::kLatticeEdge - 1;
     const Box3 nodes =
         Box3{lattice.node(0, 0, 0), lattice.node(kLast, kLast, kLast)}.inflated(kMitre * near_mm);
-    std::fill_n(out, field::kLatticeNodes, static_cast<float>(2 * near_mm));
+    const auto beyond = static_cast<float>(2 * near_mm);
+    for (std::size_t n = 0; n < field::kLatticeNodes; ++n)
+        out[n] = known ? std::min(known[n], beyond) : beyond;
     std::array<float, field::kLatticeNodes> one;
     const std::size_t likely = likely_part(nodes.centre());
     for (std::size_t n = 0; n < parts_.size(); ++n) {

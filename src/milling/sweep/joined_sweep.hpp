@@ -22,6 +22,8 @@ class JoinedSweep : public field::Shape {
     Slope slope(Vec3 point_mm) const override;
     void sample(const field::Lattice& lattice, float* out) const override;
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override;
+    void sample_below(const field::Lattice& lattice, double near_mm, const float* known,
+                      float* out) const override;
 
   protected:
     struct Least {

@@ -244,6 +244,7 @@ class SearchedSweep final : public field::Shape {
     // Looks for the least distance below `bound`. Beyond `near` on both sides of the surface only the side is
     // exact: above it the result is a bound from below.
     Least least(Vec3 point, double bound, double near) const {
+        if (bound <= -zones_->radius_mm()) return {bound, 0, 0};  // no place of the tool is so deep
         const Vec3 d = point - start_;
         const TravelBounds& b = line_.bounds;
         const double reach = length(d - b.middle) + b.spread;
