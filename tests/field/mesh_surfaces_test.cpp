@@ -58,6 +58,22 @@ TEST(MeshSurfaces, between_two_blocks_are_none) {
     expect_same(with(left, right), box_mesh({{-4, -2, -2}, {3, 2, 2}}), 5, "face on face");
 }
 
+// As a tool that mirrors a half writes it: the other half is inside out.
+TEST(MeshSurfaces, of_a_half_and_its_mirror_image_are_those_of_the_whole) {
+    const TriangleMesh left = box_mesh({{-4, -2, -2}, {0, 2, 2}}), right = box_mesh({{0, -2, -2}, {3, 2, 2}});
+    const TriangleMesh whole = box_mesh({{-4, -2, -2}, {3, 2, 2}});
+    expect_same(with(left, turned(right)), whole, 5, "one inside out");
+    expect_same(with(turned(left), right), whole, 5, "the other one");
+    expect_same(with(turned(left), turned(right)), whole, 5, "both");
+    expect_same(with(with(left, turned(right)), box_mesh({{3, -2, -2}, {4, 2, 2}})),
+                box_mesh({{-4, -2, -2}, {4, 2, 2}}), 5, "the middle one of three");
+    // A box with a hollow is no such body: what the hollow shares with the box has two sides.
+    const TriangleMesh hollow = with(whole, turned(box_mesh({{-3, -1, -1}, {2, 1, 1}})));
+    expect_same(with(hollow, turned(box_mesh({{3, -2, -2}, {4, 2, 2}}))),
+                with(box_mesh({{-4, -2, -2}, {4, 2, 2}}), turned(box_mesh({{-3, -1, -1}, {2, 1, 1}}))), 5,
+                "beside a hollow");
+}
+
 TEST(MeshSurfaces, with_both_sides_are_a_skin) {
     Draw draw(2, 0);
     const TriangleMesh sheet = test::any_sheet(draw);

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/groups.hpp"
+#include "field/mesh/mesh_parts.hpp"
 #include "field/mesh/triangles_apart.hpp"
 
 namespace tribo::field {
@@ -66,7 +67,39 @@ std::vector<Side> sides_of(const TriangleMesh& mesh) {
     return all;
 }
 
+bool are_equal(const Known& a, const Known& b) {
+    return a.vertices == b.vertices && a.rising == b.rising;
+}
+
 }  // namespace
+
+void turn_neighbours(TriangleMesh& mesh) {
+    const std::vector<Known> all = in_order(mesh);
+    if (std::ranges::adjacent_find(all, are_equal) == all.end()) return;
+    TriangleMesh parted = mesh;
+    part_at_crowded_edges(parted);
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> body = components_of(parted, count);
+    std::vector<TriangleMesh> bodies(count);
+    for (const Triangle& t : parted.triangles) {
+        bodies[body[t[0]]].triangles.push_back(t);
+    }
+    std::vector<bool> touches(count), turns(count);
+    for (std::size_t n = 1; n < all.size(); ++n) {
+        if (!are_equal(all[n - 1], all[n])) continue;
+        for (const Known& one : {all[n - 1], all[n]}) touches[body[parted.triangles[one.triangle][0]]] = true;
+    }
+    for (std::size_t n = 0; n < count; ++n) {
+        if (!touches[n] || !is_watertight(bodies[n])) continue;
+        bodies[n].positions = parted.positions;
+        turns[n] = volume_mm3(bodies[n]) < 0;
+        bodies[n] = {};
+    }
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
+        Triangle& t = mesh.triangles[n];
+        if (turns[body[parted.triangles[n][0]]]) std::swap(t[1], t[2]);
+    }
+}
 
 bool drop_twins(TriangleMesh& mesh) {
     const std::vector<Known> all = in_order(mesh);

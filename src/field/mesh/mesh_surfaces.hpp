@@ -7,6 +7,11 @@
 
 namespace tribo::field {
 
+// Turns closed bodies that are inside out and share a triangle with a neighbour, as a half beside its mirror
+// image: the triangle is there twice with one side, which two bodies with their fronts outside cannot have.
+// The mesh is welded.
+void turn_neighbours(TriangleMesh& mesh);
+
 // Keeps one of equal triangles. Of two that differ in their side only, as at the wall between two blocks, it
 // drops both if what is left encloses a volume; else it keeps one. Returns true if it has: that surface was
 // there with both sides. The mesh is welded.
