@@ -9,9 +9,12 @@ source scripts/presets.sh
 
 # Under the address sanitizer each of them takes half a minute to five. Other tests run the same code.
 long_with_addresses=(
-    app.CutSound.has_the_third_ app.CutSound.learned_from_a_cut_ app.FeedVerb.is_faster_ app.Limits.of_flags_
-    app.PartMesh.deviates_ app.PartMesh.of_every_example_
-    app.RenderChatter.says_that_its_modes_ dynamics.ModeFit.finds_two_close_ dynamics.Stability.of_many_cuts_
+    app.CompareVerb.of_render_folders_with_ app.CompareVerb.refuses_what_ app.CutSound.has_the_third_
+    app.CutSound.learned_from_a_cut_ app.FeedVerb.is_faster_ app.Freehand/RubRecordings. app.JobCutter.run_out_leaves_
+    app.Limits.of_flags_ app.PartMesh.deviates_ app.PartMesh.of_every_example_ app.Program.and_the_job_
+    app.RenderChatter.begins_and_ends_ app.RenderChatter.howls_where_ app.RenderChatter.says_that_its_modes_
+    app.StabilityVerb.asks_for_ app.StabilityVerb.chooses_ app.StabilityVerb.refuses_ dynamics.ModeFit.finds_two_close_
+    dynamics.Stability.of_many_cuts_
     field.Contour.keeps_a_wall_that_ field.Contour.of_wide_layers_ field.ContourMend.of_random_ field.ContourMend.reaches_
     field.ContourRefine.follows_round_ field.ContourRefine.of_random_
     haptics.CarvedPersistence.no_milled_ haptics.PressCycle.no_edge_catches_ job.Loader.keeps_to_the_memory_ milling.MilledMesh.
