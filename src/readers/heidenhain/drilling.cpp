@@ -6,6 +6,7 @@
 
 #include "base/math.hpp"
 #include "readers/heidenhain/interpreter.hpp"
+#include "readers/text/decimal_text.hpp"
 
 namespace tribo::readers::heidenhain {
 namespace {
@@ -239,13 +240,23 @@ double Interpreter::cutter_radius(double room) {
 }
 
 // 208: a helix to the depth, a full circle there, and back to the middle. The way to the wall is half a
-// circle.
+// circle. A bore of more than twice the tool's diameter is meant to be drilled before, to Q342; while that is
+// 0, the control checks the two diameters and refuses the cycle.
 Result<void> Interpreter::mill_bore() {
     const double radius = cutter_radius(cycle_.at(335) / 2);
     const double orbit = cycle_.at(335) / 2 - radius;
     if (!(orbit > 1e-3)) {
         return path_.refuse(cycle_.place, "the tool is not smaller than the bore Q335",
                             "take a smaller tool or cycle 200");
+    }
+    const double core = cycle_.at(335) - 4 * radius, drilled = cycle_.at(342);
+    if (core > std::max(drilled, 0.0) + 1e-3 && passed_over_.insert("Q342").second) {
+        path_.warn(cycle_.place.line,
+                   "cycle 208 leaves a core of " + short_decimal(core) +
+                       " mm in the middle of the bore, which is wider than twice the tool" +
+                       (drilled > 0 ? ": Q342 says that " + short_decimal(drilled) + " mm are drilled before"
+                                    : "; the control refuses that while Q342 is 0") +
+                       ". Take a larger tool, or drill before and write the diameter in Q342");
     }
     const double surface = cycle_.at(203), bottom = surface + cycle_.at(201);
     const double clearance = surface + cycle_.at(200), direction = cycle_.at(351) < 0 ? -1 : 1;

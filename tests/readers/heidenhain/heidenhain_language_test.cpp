@@ -298,6 +298,23 @@ TEST(HeidenhainLanguage, MillsABoreAlongAHelix) {
     expect_near(program.moves[5].end.tip_mm, {0, 0, 50}, 1e-9);
 }
 
+TEST(HeidenhainLanguage, SaysWhichCoreABoreKeeps) {
+    // A tool of 10 mm clears a ring of that width along the wall: the core is 20 mm thinner than the bore.
+    const auto bored = [](const std::string& diameters) {
+        return conversational(
+            "0 BEGIN PGM P MM\n1 TOOL DEF 1 L+0 R+5\n2 TOOL CALL 1 Z S2000 F500\n3 L X+0 Y+0 Z+2 FMAX M3\n"
+            "4 CYCL DEF 208 BORE MILLING Q200=2 Q201=-8 Q206=150 Q334=4 Q203=+0 " +
+            diameters + "\n5 CYCL CALL\n6 CYCL CALL\n");
+    };
+    const motion::Program cored = bored("Q335=30 Q342=0");
+    EXPECT_TRUE(warns_of(cored, 5, "leaves a core of 10 mm"));
+    EXPECT_TRUE(warns_of(cored, 5, "the control refuses that while Q342 is 0"));
+    EXPECT_EQ(cored.warnings.size(), 1U);
+    EXPECT_TRUE(warns_of(bored("Q335=30 Q342=4"), 5, "Q342 says that 4 mm are drilled before"));
+    EXPECT_TRUE(bored("Q335=20 Q342=0").warnings.empty());
+    EXPECT_TRUE(bored("Q335=30 Q342=10").warnings.empty());
+}
+
 TEST(HeidenhainLanguage, TiltsWithCycle19) {
     const motion::Program program = conversational(after_start(R"(3 CYCL DEF 19.0 WORKING PLANE
 4 CYCL DEF 19.1 A+0 B+90 C+0 F2000
