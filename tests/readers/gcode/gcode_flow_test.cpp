@@ -36,6 +36,8 @@ TEST(GcodeExpression, HasTheValuesOfLinuxcncsRules) {
         {"[1 LT 2 AND 3 GT 4]", 0},
         {"[1 LT 2 OR 3 GT 4]", 1},
         {"[1 XOR 1]", 0},
+        {"[1 AND 0 * 2]", 0},  // the last of all
+        {"[1 OR 1 + 1]", 1},
         {"[1 EQ 1.00009]", 1},  // equal within 0.0001
         {"[1 NE 1.00011]", 1},
         {"[2 GE 2]", 1},

@@ -98,6 +98,13 @@ TEST(GcodeMacro, ComputesAsFanucControlsDo) {
         {"12 XOR 10", 6},
         {"[13 AND 4] EQ 4", 1},
         {"[1 LT 2] AND [3 LT 4]", 1},
+        {"5 AND 3 * 2", 2},  // AND has the rank of *, OR and XOR that of +
+        {"1 + 2 AND 4", 1},
+        {"1 OR 1 + 1", 2},
+        {"1 XOR 1 + 1", 1},
+        {"[6 AND 2 EQ 2]", 1},
+        {"1 EQ 1 AND 2 EQ 2", 1},  // two comparisons: AND joins them
+        {"[[1 EQ 1 AND 2 EQ 3] + 5 AND 3 * 2]", 2},
         {"-7 MOD 3", -1},
         {"27 MOD 20", 7},
         {"7.9 MOD 2.9", 2},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "base/math.hpp"
 
@@ -65,11 +66,12 @@ constexpr Named<Operator> kOperators[] = {
     {"AND", Operator::and_}, {"OR", Operator::or_},  {"XOR", Operator::xor_},
 };
 
-int precedence(Operator op) {
+// `logic_is_arithmetic`: AND binds as a product does, OR and XOR as a sum (Fanuc, B-63944, custom macro).
+int precedence(Operator op, bool logic_is_arithmetic) {
     if (op == Operator::none) return 0;
     if (op == Operator::power) return 5;
-    if (op <= Operator::modulo) return 4;
-    if (op <= Operator::minus) return 3;
+    if (op <= Operator::modulo || (logic_is_arithmetic && op == Operator::and_)) return 4;
+    if (op <= Operator::minus || (logic_is_arithmetic && op > Operator::and_)) return 3;
     return op <= Operator::le ? 2 : 1;
 }
 
@@ -97,7 +99,13 @@ class ExpressionReader {
     }
 
     // Operators without brackets around them.
-    Result<double> formula() { return operation(1); }
+    Result<double> formula() {
+        const bool before =
+            std::exchange(logic_is_arithmetic_, parameters_.is_fanuc() && comparisons_ahead() < 2);
+        auto read = operation(1);
+        logic_is_arithmetic_ = before;
+        return read;
+    }
 
     Result<void> parameter_name(ParameterName& read) {
         const std::size_t start = cursor_.at++;  // '#'
@@ -150,7 +158,7 @@ class ExpressionReader {
     Result<double> bracket() {
         const std::size_t open = cursor_.at++;
         pass_comments();
-        auto read = operation(1);
+        auto read = formula();
         if (!read) return read;
         if (cursor_.peek_after_blanks() != ']') {
             return cursor_.at >= cursor_.line.size()
@@ -183,20 +191,36 @@ class ExpressionReader {
             cursor_.skip_blanks();
             const std::size_t start = cursor_.at;
             const Operator op = peek_operator();
-            if (precedence(op) < least) return left;
+            const int binds = precedence(op, logic_is_arithmetic_);
+            if (binds < least) return left;
             for (const auto& named : kOperators) {
                 if (named.what == op) cursor_.at += named.name.size();
             }
-            auto right = operation(precedence(op) + 1);
+            auto right = operation(binds + 1);
             if (!right) return right;
             left = applied(op, *left, *right, start);
             if (!left) return left;
         }
     }
 
-    Operator peek_operator() const {
+    // Comparisons up to the end of the bracket at the cursor, without those in brackets of their own. Fanuc
+    // controls take one; two side by side are joined by AND, OR or XOR.
+    int comparisons_ahead() const {
+        int count = 0, depth = 0;
+        for (Cursor ahead = cursor_; ahead.at < ahead.line.size() && depth >= 0; ++ahead.at) {
+            const char c = ahead.peek();
+            depth += c == '[' ? 1 : c == ']' ? -1 : 0;
+            if (c == '(') ahead.at = std::min(ahead.line.find(')', ahead.at), ahead.line.size() - 1);
+            count += depth == 0 && precedence(operator_at(ahead), true) == 2 ? 1 : 0;
+        }
+        return count;
+    }
+
+    Operator peek_operator() const { return operator_at(cursor_); }
+
+    static Operator operator_at(const Cursor& cursor) {
         for (const auto& named : kOperators) {
-            if (stands_here(cursor_, named.name)) return named.what;
+            if (stands_here(cursor, named.name)) return named.what;
         }
         return Operator::none;
     }
@@ -331,12 +355,12 @@ class ExpressionReader {
     // Fanuc: ATAN[y]/[x], ATAN[y,x], ATAN[y] and POW[a,b].
     Result<double> of_two(Function function, std::size_t start) {
         const std::size_t open = cursor_.at++;
-        auto first = operation(1);
+        auto first = formula();
         if (!first) return first;
         std::optional<double> second;
         if (cursor_.peek_after_blanks() == ',') {
             ++cursor_.at;
-            const auto read = operation(1);
+            const auto read = formula();
             if (!read) return read;
             second = number_or_0(*read);
         }
@@ -409,6 +433,7 @@ class ExpressionReader {
     const Parameters& parameters_;
     double round_to_;
     int depth_ = 0;
+    bool logic_is_arithmetic_ = false;  // in the bracket that is read
 };
 
 }  // namespace

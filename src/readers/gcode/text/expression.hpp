@@ -3,8 +3,8 @@
 // before * / MOD before + - before EQ NE GT GE LT LE before AND OR XOR, each from left to right. Angles are
 // in degrees. Allocates only for names and errors. A vacant variable of a Fanuc control is not a number: it
 // equals only another one, and counts as 0 in formulas. On Fanuc and Haas controls AND OR XOR combine the
-// bits of whole numbers, MOD keeps the sign of the first number, FIX and FUP go towards zero and away from
-// it, and ATAN gives 0 to 360.
+// bits of whole numbers; AND has the rank of *, OR and XOR that of +. There MOD keeps the sign of the first
+// number, FIX and FUP go towards zero and away from it, and ATAN gives 0 to 360.
 #pragma once
 
 #include <optional>
