@@ -259,7 +259,7 @@ TEST(FanucWords, of_num_have_variables_jumps_and_calls) {
 
 TEST(FanucWords, of_num_have_corners_cycles_and_dwells) {
     expect_same(kNum + "G79 N5\nN5 G1 X40 EB5\nY40 EB-2\nX0\nG4 F2\n", OtherControl::num,
-                kNumInFanuc + "G1 X40 ,R5\nY40 ,C2\nX0\nG4 X2\n");
+                kNumInFanuc + "G1 X40 ,R5\nY40 ,C2\nX0\nG4 X2.\n");
     // The tool returns to the plane of ER, or to where it is.
     expect_same(kNum + "G0 Z20\nG81 X10 Y5 Z-8 ER2 F60\nX30\nG80\nG83 X50 Z-6 ER1 P2 F80\nG80 Z20\n",
                 OtherControl::num,

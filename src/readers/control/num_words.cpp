@@ -64,7 +64,7 @@ class NumBlock {
         if (const auto all = of_its_own()) return *all;
         std::string out;
         if (has_code("4")) {
-            if (const auto seconds = take("F")) out += "X" + *seconds;
+            if (const auto seconds = take("F")) out += "X[" + *seconds + "]";  // computed: in seconds
         }
         if (!has_code("41") && !has_code("42")) {
             if (const auto offset = take("D")) out += *offset == "0" ? "G49 " : "G43 ";

@@ -233,7 +233,7 @@ void WordTranslator::okuma_code(const std::string& number) {
         out_ += "G69";
     } else if (number == "4") {
         const std::string seconds = take_word('F');
-        out_ += "G4" + (seconds.empty() ? std::string() : "X" + seconds);
+        out_ += "G4" + (seconds.empty() ? std::string() : "X[" + seconds + "]");  // computed: in seconds
     } else {
         const bool is_cycle = number.size() == 2 && (number[0] == '7' || number[0] == '8');
         if (is_cycle) cycle_on_ = number != "80";

@@ -351,6 +351,7 @@ enum class Note {
     parallel_axis,
     overruled_code,
     tool_timer,
+    dwell_increments,
 };
 
 // Receives the moves, warnings and errors of the blocks.

@@ -72,7 +72,7 @@ TEST(GcodeCycles, FollowFanucWhereTheDialectSaysSo) {
     EXPECT_EQ(path_of("G76 X1 Z-3 R1 Q0.2 P500", fanuc), "r1,0,5 r1,0,1 f1,0,-3 d0.5 r1,0,5");
     EXPECT_EQ(path_of("G98 G84 X1 Z-3 R1", fanuc), "r1,0,5 r1,0,1 f1,0,-3 f1,0,1 r1,0,5");
     EXPECT_EQ(path_of("G98 G81 Z-3 R1 K0\nX2", fanuc), "r2,0,5 r2,0,1 f2,0,-3 r2,0,5");
-    EXPECT_EQ(path_of("G4 P1500\nG4 X2", fanuc), "d1.5 d2");
+    EXPECT_EQ(path_of("G4 P1500\nG4 X2.", fanuc), "d1.5 d2");
     // Levels stay those of the block that wrote them: the positions alone are increments.
     EXPECT_EQ(path_of("G99 G81 X1 Z-3 R1\nG91 X2 K2\nG90 X9", fanuc),
               "r1,0,5 r1,0,1 f1,0,-3 r1,0,1 r3,0,1 f3,0,-3 r3,0,1 r5,0,1 f5,0,-3 r5,0,1 r9,0,1 f9,0,-3 "

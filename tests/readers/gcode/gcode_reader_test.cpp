@@ -149,7 +149,13 @@ TEST(GcodeReader, DwellsInMillisecondsOnFanucControlsWithoutADecimalPoint) {
     EXPECT_EQ(seconds("G4 P2.\n"), 2);
     EXPECT_EQ(seconds("G4 P0.25\n"), 0.25);
     EXPECT_EQ(seconds("#1=2.5\nG4 P[#1*1000.]\n"), 2.5);
+    // X and U count the same increments; a variable holds seconds, as one of a coordinate holds millimetres.
     EXPECT_EQ(seconds("G4 X0.5\n"), 0.5);
+    EXPECT_EQ(seconds("G4 X2000\n"), 2);
+    EXPECT_EQ(seconds("G4 U250\n"), 0.25);
+    EXPECT_EQ(seconds("#1=2\nG4 X#1\n"), 2);
+    EXPECT_TRUE(warns_of(program_of("G21\nG0 X0 Y0 Z5\nG4 X2000\n", options), 3, "counts milliseconds"));
+    EXPECT_EQ(program_of("G21\nG0 X0 Y0 Z5\nG4 X2\n").moves.back().duration_s, 2);  // LinuxCNC
     EXPECT_EQ(seconds("G82 Z-1 R1 P500\nX3\nG80\n"), 1);
     EXPECT_EQ(seconds("G82 Z-1 R1 P.5\nX3\nG80\n"), 1);
 }

@@ -11,7 +11,8 @@
 namespace tribo::readers::gcode {
 namespace {
 
-// G4: P as of any dwell; X, U and S (Marlin) in seconds.
+// G4: P as of any dwell; X, U and S (Marlin) in seconds. On Fanuc controls X and U count least increments, of
+// 0.001 s, unless they are written with a decimal point or computed (B-63944, dwell).
 Result<void> apply_dwell(Command& command, State& state, Output& output) {
     const Word* length = command.use('P');
     const bool is_p = length != nullptr;
@@ -24,7 +25,14 @@ Result<void> apply_dwell(Command& command, State& state, Output& output) {
         }
         return {};
     }
-    const double seconds = is_p ? dwell_s(*length, output) : length->value;
+    const bool is_axis = length->letter == 'X' || length->letter == 'U';
+    const bool in_increments = is_axis && !length->is_computed;
+    const double seconds = is_p || in_increments ? dwell_s(*length, output) : length->value;
+    if (in_increments && seconds != length->value && output.first(Note::dwell_increments)) {
+        output.warn(command.line(), std::string("G4 ") + length->letter +
+                                        " without a decimal point counts milliseconds on a Fanuc control: "
+                                        "write the point where seconds are meant");
+    }
     if (auto good = in_range(kLimits.dwell, seconds, command, *length, output); !good) return good;
     return dwell(seconds, command, state, output);
 }

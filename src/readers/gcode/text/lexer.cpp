@@ -345,8 +345,9 @@ Result<void> Lexer::read_word(Block& block) {
     if (!*value) return {};
     if (letter != 'N') {
         const std::string_view written = cursor_.line.substr(start, cursor_.at - start);
-        const bool has_point = written.contains('.') && written.find_first_of("[#") == std::string_view::npos;
-        block.words.push_back({letter, **value, static_cast<int>(start) + 1, has_point});
+        const bool is_computed = written.find_first_of("[#") != std::string_view::npos;
+        const bool has_point = written.contains('.') && !is_computed;
+        block.words.push_back({letter, **value, static_cast<int>(start) + 1, has_point, is_computed});
         const bool shows_text = letter == 'M' && (**value == 117 || **value == 118);  // Marlin
         if (shows_text) cursor_.at = cursor_.line.size();
     } else if (!block.words.empty()) {

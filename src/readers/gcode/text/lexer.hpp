@@ -21,8 +21,9 @@ namespace tribo::readers::gcode {
 struct Word {
     char letter = 0;  // upper case
     double value = 0;
-    int column = 0;          // of the letter, from 1
-    bool has_point = false;  // a number that is written with a decimal point
+    int column = 0;            // of the letter, from 1
+    bool has_point = false;    // a number that is written with a decimal point
+    bool is_computed = false;  // by parameters or expressions
 };
 
 // #1=2 or #<name>=2. It takes effect after the whole block is read.
