@@ -13,6 +13,7 @@
 #include "readers/gcode/command.hpp"
 #include "readers/gcode/denford.hpp"
 #include "readers/gcode/flow.hpp"
+#include "readers/gcode/frames/polar_words.hpp"
 #include "readers/gcode/modes.hpp"
 #include "readers/gcode/motion/compensation.hpp"
 #include "readers/gcode/motion/corners.hpp"
@@ -158,6 +159,8 @@ class ProgramReader {
             return true;
         }
         if (ends_with_alarm(block)) return false;
+        if (auto done = place_polar_words(block, state_, output_); !done)
+            return std::unexpected(done.error());
         if (block.words.empty()) return true;
         has_words_ = true;
         if (const Word* call = macro_call_in(block)) {

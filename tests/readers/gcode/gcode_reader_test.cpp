@@ -160,6 +160,32 @@ TEST(GcodeReader, DwellsInMillisecondsOnFanucControlsWithoutADecimalPoint) {
     EXPECT_EQ(seconds("G82 Z-1 R1 P.5\nX3\nG80\n"), 1);
 }
 
+// LinuxCNC, G-code overview, polar coordinates.
+TEST(GcodeReader, GoesToPolarPoints) {
+    const auto ends = [](const std::string& text) {
+        std::vector<Vec3> all;
+        for (const motion::Move& move : program_of("G21 M3 F100\nG0 X0 Y0 Z5\n" + text).moves)
+            all.push_back(move.end.tip_mm);
+        return all;
+    };
+    const auto expect_ends = [&](const std::string& text, const std::vector<Vec3>& expected) {
+        const std::vector<Vec3> found = ends(text);
+        ASSERT_EQ(found.size(), expected.size()) << text;
+        for (std::size_t n = 0; n < found.size(); ++n)
+            EXPECT_NEAR(distance(found[n], expected[n]), 0, 1e-9) << text << n;
+    };
+    expect_ends("G1 @1 ^90\n", {{0, 1, 5}});
+    expect_ends("G1 @[2*3]^30 Z1\n@2\n^-60\n",
+                {{6 * std::sqrt(0.75), 3, 1}, {2 * std::sqrt(0.75), 1, 1}, {1, -2 * std::sqrt(0.75), 1}});
+    // The manual's square; a radius that grows as well gives a spiral.
+    expect_ends("G1 @.5 ^90\nG91 ^90\n^90\n^90\n^90\n",
+                {{0, .5, 5}, {-.5, 0, 5}, {0, -.5, 5}, {.5, 0, 5}, {0, .5, 5}});
+    expect_ends("G1 @.5 ^90\nG91 @.5 ^90\n@.5 ^90\n", {{0, .5, 5}, {-1, 0, 5}, {0, -1.5, 5}});
+    // About the zero of the work system, in its unit.
+    expect_ends("G92 X10 Y20\nG1 @1 ^0\n", {{-9, -20, 5}});
+    expect_ends("G20 G1 @1 ^180\n", {{-25.4, 0, 5}});
+}
+
 TEST(GcodeReader, AppliesWorkOffsetsThatTheProgramSets) {
     const Program program = program_of(
         "G21 M3 F100\n"

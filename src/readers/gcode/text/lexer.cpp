@@ -111,6 +111,8 @@ Result<bool> Lexer::next(Block& block) {
     block.setting = {};
     block.called.clear();
     block.corner.reset();
+    block.polar_radius.reset();
+    block.polar_angle.reset();
     block.words.clear();
     block.assignments.clear();
     block.comments.clear();
@@ -313,9 +315,29 @@ Result<void> Lexer::read_corner(Block& block) {
     return {};
 }
 
+// The cursor is on @ or ^.
+Result<void> Lexer::read_polar(Block& block) {
+    const std::size_t start = cursor_.at++;
+    const char sign = cursor_.line[start];
+    if (parameters_.is_fanuc()) {
+        return cursor_.refuse(start, shown_character(sign) + " is a polar word of LinuxCNC",
+                              "choose the dialect linuxcnc, or write the point with X and Y");
+    }
+    auto& place = sign == '@' ? block.polar_radius : block.polar_angle;
+    if (place) {
+        return cursor_.refuse(start, shown_character(sign) + " stands twice in the block",
+                              "delete one of the two or start a new line between them");
+    }
+    const auto value = read_number(sign, start);
+    if (!value) return std::unexpected(value.error());
+    if (*value) place = Word{sign, **value, static_cast<int>(start) + 1};
+    return {};
+}
+
 Result<void> Lexer::read_word(Block& block) {
     const std::size_t start = cursor_.at;
     const char c = cursor_.peek();
+    if (c == '@' || c == '^') return read_polar(block);
     if (c == '/') {
         return cursor_.refuse(start, "'/' deletes whole blocks and stands inside one",
                               "move it to the start of the line");

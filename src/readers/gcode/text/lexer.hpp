@@ -46,15 +46,16 @@ struct Block {
     int column = 0;          // of the start of a percent or o_word block
     bool deletable = false;  // starts with '/'
     bool has_nested_comment = false;
-    bool has_open_comment = false;  // not closed on its line
-    bool has_deleted_rest = false;  // behind a '/' inside; it is not read
-    bool has_print = false;         // DPRNT and the like
-    std::string_view setting;       // a line that begins with '$', or with '[' and a name
-    std::string_view label;         // what follows a '%'
-    std::string called;             // NAME of M98<NAME> (Fanuc), in lower case
-    MacroStatement macro;           // of a macro block
-    std::optional<Word> corner;     // ,R or ,C: a corner at the end of the block
-    std::vector<Word> words;        // in order, line numbers (N) left out
+    bool has_open_comment = false;                  // not closed on its line
+    bool has_deleted_rest = false;                  // behind a '/' inside; it is not read
+    bool has_print = false;                         // DPRNT and the like
+    std::string_view setting;                       // a line that begins with '$', or with '[' and a name
+    std::string_view label;                         // what follows a '%'
+    std::string called;                             // NAME of M98<NAME> (Fanuc), in lower case
+    MacroStatement macro;                           // of a macro block
+    std::optional<Word> corner;                     // ,R or ,C: a corner at the end of the block
+    std::optional<Word> polar_radius, polar_angle;  // @ and ^ (LinuxCNC)
+    std::vector<Word> words;                        // in order, line numbers (N) left out
     std::vector<Assignment> assignments;
     std::vector<std::string_view> comments;
 };
@@ -93,6 +94,7 @@ class Lexer {
     Result<bool> read_setting(Block& block);
     Result<void> read_word(Block& block);
     Result<void> read_corner(Block& block);
+    Result<void> read_polar(Block& block);
     Result<void> read_comment(Block& block);
     Result<void> read_assignment(Block& block);
     // None: a vacant variable.
