@@ -206,6 +206,46 @@ TEST(GcodeRotary, TakesVectorsOfTheToolForTheJointsThatReachThem) {
     EXPECT_NEAR(feed_mm(program), 4, 1e-9);
 }
 
+// A program in turned, mirrored or tilted coordinates is the one that was turned by hand.
+TEST(GcodeRotary, TurnsVectorsOfTheToolWithTheirPoints) {
+    const std::string written = "G0 X0 Y0 Z50\nG1 X10 Y0 Z0 I0.6 J0 K0.8 F100\nX20 Y5 I0 J-0.6 K0.8\nY9\n";
+    const std::pair<const char*, const char*> frames[] = {
+        {"G68 X0 Y0 R90\n", "G0 X0 Y0 Z50\nG1 X0 Y10 Z0 I0 J0.6 K0.8 F100\nX-5 Y20 I0.6 J0 K0.8\nX-9\n"},
+        {"G51.1 X0\n", "G0 X0 Y0 Z50\nG1 X-10 Y0 Z0 I-0.6 J0 K0.8 F100\nX-20 Y5 I0 J-0.6 K0.8\nY9\n"},
+        // Mirrored, the rotation turns the other way.
+        {"G51.1 X0\nG68 X0 Y0 R90\n",
+         "G0 X0 Y0 Z50\nG1 X0 Y10 Z0 I0 J0.6 K0.8 F100\nX5 Y20 I-0.6 J0 K0.8\nX9\n"},
+        // A scale moves the points and leaves the axis.
+        {"G51 X0 Y0 Z0 I2 J1 K1\n",
+         "G0 X0 Y0 Z50\nG1 X20 Y0 Z0 I0.6 J0 K0.8 F100\nX40 Y5 I0 J-0.6 K0.8\nY9\n"},
+        {"G68.2 X0 Y0 Z0 I90 J0 K0\n",
+         "G0 X0 Y0 Z50\nG1 X0 Y10 Z0 I0 J0.6 K0.8 F100\nX-5 Y20 I0.6 J0 K0.8\nX-9\n"},
+        // The system is turned, from the zero of the stock.
+        {"G10 L2 P1 X0 Y0 R90\n",
+         "G0 X0 Y0 Z50\nG1 X0 Y10 Z0 I0 J0.6 K0.8 F100\nX-5 Y20 I0.6 J0 K0.8\nX-9\n"},
+    };
+    const auto expect_same = [](const motion::Program& found, const motion::Program& by_hand,
+                                const char* frame) {
+        expect_joined(found);
+        ASSERT_EQ(found.moves.size(), by_hand.moves.size()) << frame;
+        for (std::size_t n = 0; n < found.moves.size(); ++n) {
+            expect_near(found.moves[n].end.tip_mm, by_hand.moves[n].end.tip_mm, 1e-9);
+            expect_near(found.moves[n].end.axis, by_hand.moves[n].end.axis, 1e-9);
+        }
+    };
+    const std::string begin = "G21 G90 M3\nG0 X0 Y0 Z60\nG43.5 H1\n";
+    for (const auto& [frame, by_hand] : frames) {
+        SCOPED_TRACE(frame);
+        expect_same(program_of(begin + "G1\n" + frame + written), program_of(begin + by_hand), frame);
+        // The table of the machine stands turned by 90 degrees where the axes do: its moves are others.
+        const motion::Program found = on("xyzac-trt", begin + frame + written);
+        expect_joined(found);
+        const motion::ToolPose end = program_of(begin + by_hand).moves.back().end;
+        expect_near(found.moves.back().end.tip_mm, end.tip_mm, 1e-9);
+        expect_near(found.moves.back().end.axis, end.axis, 1e-9);
+    }
+}
+
 TEST(GcodeRotary, ReportsTravelAndSingularPositionsWithTheirLines) {
     motion::Machine machine = *motion::named_machine("xyzac-trt");
     machine.part_side[0].min = -30 * kDeg;

@@ -94,6 +94,7 @@ Result<void> begin_scale(Command& command, State& state, Output& output, Code co
         scale[axis] = *factor;
         is_given = true;
     }
+    for (const char letter : {'I', 'J', 'K'}) command.hide(letter);  // no axis of the tool (G43.5)
     if (!is_given) {
         return output.refuse(command.line(), code.column, "G51 without its scale",
                              "write it as P, or for each axis as I, J and K");
@@ -135,6 +136,11 @@ Vec3 ProgramFrame::placed_offset(Vec3 offset) const {
         offset[axis] *= scale[axis] * (mirror_mm[static_cast<std::size_t>(axis)] ? -1 : 1);
     }
     return turned_in(turn_plane, offset, placed_turn_deg());
+}
+
+Vec3 ProgramFrame::placed_direction(Vec3 direction) const {
+    for (int axis = 0; axis < 3; ++axis) direction[axis] /= std::abs(scale[axis]);
+    return placed_offset(direction);
 }
 
 double ProgramFrame::placed_level(double level, int axis) const {

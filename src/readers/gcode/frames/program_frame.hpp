@@ -37,6 +37,8 @@ struct ProgramFrame {
     Vec3 written(Vec3 placed) const;
     // placed() for the difference of two points.
     Vec3 placed_offset(Vec3 offset) const;
+    // placed() of a direction: mirrored and turned, not scaled.
+    Vec3 placed_direction(Vec3 direction) const;
     // placed() of a level along an axis that no rotation moves (the depth of a cycle).
     double placed_level(double level, int axis) const;
     // True if a left turn in the plane becomes a right one.

@@ -74,13 +74,17 @@ Result<void> read_vector(Command& command, State& state, Output& output) {
         return output.refuse(command.line(), first->column, "the tool's axis I J K has no direction",
                              "write the direction from the tip to the shank");
     }
+    // As X Y Z of its block, the vector is written in the coordinates in force.
+    axis = state.frame.placed_direction(axis);
+    const double turn_deg = state.active().turn_deg;
+    if (state.tilt) axis = turned(state.tilt->frame.direction_in_stock(axis), -turn_deg);
     if (!output.machine) {
         state.rotary.target_axis = normalized(axis);
         state.rotary.stated = true;
         return {};
     }
-    const auto reached =
-        output.machine->kinematics().joints({{}, normalized(axis)}, {{}, state.rotary.now_rad});
+    const auto reached = output.machine->kinematics().joints({{}, turned(normalized(axis), turn_deg)},
+                                                             {{}, state.rotary.now_rad});
     if (!reached) {
         return output.refuse(command.line(), first->column,
                              "the machine " + output.machine->machine().name + " cannot turn its tool there",
