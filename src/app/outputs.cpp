@@ -22,8 +22,9 @@ bool is_same_file(const std::string& one, const std::string& other) {
     return !error && !fs::exists(a, error) && a == b;
 }
 
-std::unexpected<FileFailure> refuse(const std::string& file, std::string cause) {
-    return std::unexpected(FileFailure({file, 0, 0, std::move(cause), "name another file for the output"}));
+std::unexpected<FileFailure> refuse(const std::string& file, std::string cause,
+                                    std::string remedy = "name another file for the output") {
+    return std::unexpected(FileFailure({file, 0, 0, std::move(cause), std::move(remedy)}));
 }
 
 }  // namespace
@@ -37,6 +38,13 @@ FileResult<void> check_outputs(const std::vector<std::string>& outputs,
         if (files::was_read(*output) || std::ranges::any_of(inputs, is_output))
             return refuse(*output, "is an input of this run and would be replaced");
         if (std::any_of(named.begin(), output, is_output)) return refuse(*output, "is named for two outputs");
+        std::error_code error;
+        if (fs::is_directory(*output, error)) return refuse(*output, "is a folder");
+        const fs::path folder = fs::path(*output).parent_path();
+        if (!folder.empty() && !fs::is_directory(folder, error)) {
+            return refuse(*output, "its folder is not there",
+                          "make the folder " + folder.string() + ", or name another file for the output");
+        }
     }
     return {};
 }

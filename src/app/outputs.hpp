@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Refuses to write over what the run reads, before any work is done.
+// Refuses to write over what the run reads, or where nothing can be written, before any work is done.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 namespace tribo::app {
 
 // Refuses a name in `outputs` that is a file which was read until now, one of `inputs` or another output.
-// Links and other names of the same file count. Empty names are left out. `inputs` are read later.
+// Links and other names of the same file count. Refuses a folder, and a file whose folder is not there. Empty
+// names are left out. `inputs` are read later.
 FileResult<void> check_outputs(const std::vector<std::string>& outputs,
                                const std::vector<std::string>& inputs = {});
 

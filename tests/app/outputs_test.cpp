@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An output that the run also reads is refused by name, before any work, and every file stays.
+// An output that the run also reads, or that has no folder, is refused by name, before any work, and every
+// file stays.
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
@@ -77,6 +78,21 @@ TEST_F(Outputs, of_feel_are_not_its_inputs_nor_each_other) {
                    "this is not a baked force table");
     expect_refused(with({"--out", "new.csv", "--stats", "./new.csv"}), "./new.csv",
                    "is named for two outputs");
+}
+
+TEST_F(Outputs, have_a_folder_before_any_work) {
+    const std::vector<std::vector<std::string>> calls{
+        {"rub", "m.json", "--stroke", "rub.csv", "--out", "gone/r.wav"},
+        {"inspect", "slot.nc", "--picture", "gone/p.png"},
+        {"feel", "slot.toml", "--stroke", "feel.csv", "--out", "gone/t.csv"},
+        {"feel", "slot.toml", "--stroke", "feel.csv", "--out", "t.csv", "--stats", "gone/s.json"},
+        {"feed", "slot.toml", "--force-n", "100", "--out", "gone/new.nc"},
+        {"render", "slot.nc", "--tool", "flat 6", "--out", "out", "--job-out", "gone/j.toml"},
+    };
+    for (const auto& call : calls) expect_refused(call, call.back(), "its folder is not there");
+    fs::create_directory(scratch / "made");
+    expect_refused({"rub", "m.json", "--stroke", "rub.csv", "--out", "made"}, "made", "is a folder");
+    EXPECT_EQ(run({"rub", "m.json", "--stroke", "rub.csv", "--out", "made/r.wav"}).code, 0);
 }
 
 TEST_F(Outputs, of_learn_are_not_its_inputs) {
