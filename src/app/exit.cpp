@@ -13,7 +13,7 @@ int report(const Error& error) {
 
 int report(const FileFailure& failure) {
     report(static_cast<const Error&>(failure));
-    return failure.fault == FileFault::input ? kWrongInput : kRefused;
+    return failure.fault == FileFault::system ? kRefused : kWrongInput;
 }
 
 void report(const Warnings& warnings, std::size_t most) {

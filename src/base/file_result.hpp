@@ -10,8 +10,9 @@
 namespace tribo {
 
 enum class FileFault {
-    input,   // the request is wrong: no such file, a folder, too long, a file that we must not replace
-    system,  // the file system refused: no right, no room, a broken disk
+    input,    // the request is wrong: a folder, too long, a file that we must not replace
+    missing,  // no such file: the request is wrong as well
+    system,   // the file system refused: no right, no room, a broken disk
 };
 
 struct FileFailure : Error {

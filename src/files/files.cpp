@@ -120,7 +120,9 @@ int read_some(int descriptor, std::string& bytes, std::size_t& filled) {
 }  // namespace
 
 std::unexpected<FileFailure> system_failure(const std::string& file, const char* doing, int error_number) {
-    const FileFault fault = names_something_wrong(error_number) ? FileFault::input : FileFault::system;
+    const FileFault fault = error_number == ENOENT                ? FileFault::missing
+                            : names_something_wrong(error_number) ? FileFault::input
+                                                                  : FileFault::system;
     return std::unexpected(
         FileFailure({file, 0, 0, std::string("cannot ") + doing + ": " + std::strerror(error_number),
                      remedy_for(error_number, std::string_view(doing) == "read")},

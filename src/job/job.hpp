@@ -134,8 +134,16 @@ struct JobMachine {
     std::optional<motion::Machine> kinematics;
 };
 
+// A file that a key of the job names.
+struct JobFile {
+    std::string path;  // joined with the folder of the job
+    std::string key;
+    int line = 0, column = 0;  // of its value in the file of this job
+};
+
 struct Job {
     std::string file;                        // as given by the user
+    std::vector<JobFile> files;              // all that it names; job_files.hpp
     std::optional<readers::ModelFile> part;  // the designed surface
     JobSolid stock;                          // empty where `stock_from` is given
     std::optional<JobStockFrom> stock_from;  // an earlier job

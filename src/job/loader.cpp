@@ -9,6 +9,7 @@
 #include "job/assumption.hpp"
 #include "job/completion.hpp"
 #include "job/input_kind.hpp"
+#include "job/job_files.hpp"
 #include "job/program_file.hpp"
 #include "job/response_modes.hpp"
 #include "job/toml/job_toml.hpp"
@@ -135,7 +136,7 @@ class Chain {
             job = &loaded_.earlier.back().job;
         }
         auto blank = reading_.solid(job->stock);
-        if (!blank) return std::unexpected(blank.error());
+        if (!blank) return std::unexpected(at_key(*job, blank.error()));
         loaded_.blank = *std::move(blank);
         return {};
     }
@@ -177,7 +178,8 @@ class Chain {
         auto read = read_job(files_, file);
         if (!read) return std::unexpected(read.error());
         before.job = *std::move(read);
-        if (auto done = read_path(reading_, before.job, before.program); !done) return done;
+        if (auto done = read_path(reading_, before.job, before.program); !done)
+            return std::unexpected(at_key(before.job, done.error()));
         add(before.program.warnings, loaded_.warnings);
         return {};
     }
@@ -267,7 +269,8 @@ FileResult<void> load_program(Reading& reading, const std::string& name, PathKin
 FileResult<motion::Program> read_and_complete(const FileSource& files, Job& job, const LoadOptions& options) {
     motion::Program program;
     Reading reading{files, options};
-    if (auto done = read_path_and_modes(reading, job, program); !done) return std::unexpected(done.error());
+    if (auto done = read_path_and_modes(reading, job, program); !done)
+        return std::unexpected(at_key(job, done.error()));
     return program;
 }
 
@@ -286,7 +289,7 @@ FileResult<LoadedJob> load_job(const FileSource& files, const std::string& name,
         done = read_path_and_modes(reading, loaded->job, loaded->program);
     }
     if (done) done = load_rest(reading, *loaded);
-    if (!done) return std::unexpected(done.error());
+    if (!done) return std::unexpected(at_key(loaded->job, done.error()));
     return loaded;
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "job/job_files.hpp"
 #include "job/listening.hpp"
 #include "sound/play/soundtrack.hpp"
 #include "tribo/job_hearing.hpp"
@@ -50,9 +51,10 @@ FileResult<CutSound> CutSound::of(const Mill& mill, const SoundOptions& options)
     if (auto good = sound::check(track); !good) return std::unexpected(FileFailure(good.error()));
     Warnings warnings;
     auto head = head_of(said, options.sample_rate_hz, cut.file, {}, warnings);
-    if (!head) return std::unexpected(head.error());
+    if (!head) return std::unexpected(job::at_key(cut.job, head.error()));
     track.head = std::move(*head);
-    if (auto read = read_voices(said, track); !read) return std::unexpected(read.error());
+    if (auto read = read_voices(said, track); !read)
+        return std::unexpected(job::at_key(cut.job, read.error()));
     if (auto good = sound::check(track); !good) return std::unexpected(FileFailure(good.error()));
     return CutSound(std::make_unique<State>(State{sound::Soundtrack(track), std::move(warnings)}));
 }

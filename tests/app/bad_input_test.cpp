@@ -82,7 +82,32 @@ const BadInput kCases[] = {
      [](Parts& p) { p.more = "[engagement]\nentry_deg = 90\nexit_deg = 30\naxial_depth_mm = 2\n"; },
      "'exit_deg' is not behind 'entry_deg'"},
     {"file_is_not_there", [](Parts& p) { p.path = "[path]\ngcode = \"q.nc\"\n"; },
-     "q.nc: error: cannot read"},
+     "'gcode' names q.nc, which is not there; correct the name"},
+    {"stock_is_not_there", [](Parts& p) { p.stock = stock_from("n.stl"); },
+     "job.toml:2:8: error: 'mesh' names n.stl, which is not there"},
+    {"fixture_is_not_there", [](Parts& p) { p.more = "[[fixture]]\nmesh = \"n.stl\"\n"; },
+     "'mesh' names n.stl, which is not there"},
+    {"design_is_not_there", [](Parts& p) { p.more = "[part]\nsurface = \"n.stl\"\n"; },
+     "'surface' names n.stl, which is not there"},
+    {"machine_is_not_there", [](Parts& p) { p.path += "machine = \"n.toml\"\n"; },
+     "'machine' names n.toml, which is not there"},
+    {"tool_table_is_not_there", [](Parts& p) { p.path += "tools = \"n.tbl\"\n"; },
+     "'tools' names n.tbl, which is not there"},
+    {"response_is_not_there",
+     [](Parts& p) { p.more = "[[frf]]\nfile = \"n.csv\"\ndirection = [1, 0, 0]\non = \"tool\"\n"; },
+     "'file' names n.csv, which is not there"},
+    {"head_is_not_there",
+     [](Parts& p) {
+         p.more = "[sound]\nmode = \"hrtf\"\nhrtf = \"n.sofa\"\n";
+         p.call = {"--only", "sound"};
+     },
+     "'hrtf' names n.sofa, which is not there"},
+    {"recording_is_not_there",
+     [](Parts& p) {
+         p.more = "[sound]\nrecording = \"n.wav\"\nrecording_rpm = 6000\n";
+         p.call = {"--only", "sound"};
+     },
+     "'recording' names n.wav, which is not there"},
     {"file_is_a_folder", [](Parts& p) { p.path = "[path]\ngcode = \".\"\n"; }, "is a folder"},
     {"spindle_is_nowhere", [](Parts& p) { p.process = "[process]\nfeed_mm_per_min = 900\n"; },
      "p.nc:3: error: the spindle has no speed here; add an S word to the program or spindle_rpm"},
@@ -94,7 +119,7 @@ const BadInput kCases[] = {
     {"word_is_nan", [](Parts& p) { p.program = "G21\nG1 XNAN F5\n"; }, "p.nc:2:"},
     {"word_is_huge", [](Parts& p) { p.program = "G21\nG0 X0 Y0 Z0\nG1 X1e300 F5\n"; }, "p.nc:3:"},
     {"word_is_far_away", [](Parts& p) { p.program = "G21\nG0 X0 Y0 Z0\nG1 X99999999999 F5\n"; }, "p.nc:3:"},
-    {"word_is_unknown", [](Parts& p) { p.program = "G21\nG0 X0 Y0 Z0\nG1 X1 F5 @7\n"; }, "p.nc:3:10"},
+    {"word_is_unknown", [](Parts& p) { p.program = "G21\nG0 X0 Y0 Z0\nG1 X1 F5 ?7\n"; }, "p.nc:3:10"},
     {"arc_misses_its_end", [](Parts& p) { p.program = "G21 F5 M3\nG0 X0 Y0 Z0\nG2 X10 Y0 I2 J0\n"; },
      "p.nc:3:"},
     {"rotary_without_a_machine", [](Parts& p) { p.program = "G21 F5\nG0 X0 Y0 Z0 A30\nG1 X9\n"; }, "p.nc:2"},

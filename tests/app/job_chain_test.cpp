@@ -197,7 +197,7 @@ TEST_F(JobChain, is_refused_with_the_file_and_what_to_do) {
     folder.put("job.toml", job(from("a.toml"), "gcode = \"b.nc\""));
     EXPECT_EQ(refusal().substr(0, 18), "a.toml:2:10: error");
     folder.put("a.toml", job(kBox, "gcode = \"gone.nc\""));
-    EXPECT_EQ(refusal().substr(0, 14), "gone.nc: error");
+    EXPECT_EQ(refusal().substr(0, 48), "a.toml:14:9: error: 'gcode' names gone.nc, which");
 }
 
 TEST_F(JobChain, from_a_folder_is_refused_once_its_job_changed_or_would_be_overwritten) {

@@ -46,8 +46,9 @@ TEST(ReadFile, refuses_what_is_no_file_as_an_input_error) {
     const struct {
         std::string path;
         const char* fragment;
+        FileFault fault = FileFault::input;
     } cases[] = {
-        {scratch / "none", "No such file"},
+        {scratch / "none", "No such file", FileFault::missing},
         {scratch.path(), "is a folder"},
         {scratch / "f/g", "Not a directory"},
         {"/dev/null", "is a device"},
@@ -58,7 +59,7 @@ TEST(ReadFile, refuses_what_is_no_file_as_an_input_error) {
     for (const auto& c : cases) {
         const FileResult<std::string> result = read_file(c.path);
         ASSERT_FALSE(result) << c.path;
-        EXPECT_EQ(result.error().fault, FileFault::input) << c.path;
+        EXPECT_EQ(result.error().fault, c.fault) << c.path;
         EXPECT_NE(result.error().text().find(c.fragment), std::string::npos) << result.error().text();
     }
 }

@@ -10,6 +10,7 @@
 #include "app/progress.hpp"
 #include "files/disk_source.hpp"
 #include "files/files.hpp"
+#include "job/job_files.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "readers/tables/force_bake.hpp"
 #include "session/chatter/program_chatter.hpp"
@@ -54,7 +55,7 @@ FileResult<contact::ForceTableOptions> FeelSource::table_options() const {
     const std::string& profile = call_.profile.empty() ? job_.haptics.profile : call_.profile;
     if (profile.empty()) return options;
     auto read = job::read_jnd_profile(files::DiskSource(), profile);
-    if (!read) return std::unexpected(read.error());
+    if (!read) return std::unexpected(job::at_key(job_, read.error()));
     options.profile = *read;
     return options;
 }

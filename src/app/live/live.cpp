@@ -15,6 +15,7 @@
 #include "devices/arm/device_search.hpp"
 #include "files/disk_source.hpp"
 #include "files/files.hpp"
+#include "job/job_files.hpp"
 #include "job/program_file.hpp"
 #include "job/toml/jnd_profile_toml.hpp"
 #include "session/uncertain/force_bands.hpp"
@@ -116,7 +117,7 @@ int live(const LiveCall& call) {
     contact::JndProfile profile;
     if (const std::string& file = first->job.haptics.profile; !file.empty()) {
         const auto read = job::read_jnd_profile(files::DiskSource(), file);
-        if (!read) return report(read.error());
+        if (!read) return report(job::at_key(first->job, read.error()));
         profile = *read;
     }
     auto arm = open_device(call, first->setup.blank->bounds_mm());

@@ -8,6 +8,7 @@
 #include "files/disk_source.hpp"
 #include "files/machine_limits.hpp"
 #include "files/memory.hpp"
+#include "job/job_files.hpp"
 #include "session/cut/memory_estimate.hpp"
 #include "surface/deviation.hpp"
 #include "tribo/job_hearing.hpp"
@@ -81,9 +82,10 @@ FileResult<PreparedJob> prepare_job(const std::string& file, const ProgramFlags&
         const job::JobSound& sound = loaded->job.sound;
         auto head = head_of(sound, *sound_rate_hz, file, SofaReader{"/proc/self/exe", kReadSofaVerb},
                             prepared.warnings);
-        if (!head) return std::unexpected(head.error());
+        if (!head) return std::unexpected(job::at_key(loaded->job, head.error()));
         prepared.track.head = std::move(*head);
-        if (auto read = read_voices(sound, prepared.track); !read) return std::unexpected(read.error());
+        if (auto read = read_voices(sound, prepared.track); !read)
+            return std::unexpected(job::at_key(loaded->job, read.error()));
     }
     prepared.setup = std::move(*setup);
     prepared.material = *session::job_material(loaded->job);

@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "job/job_files.hpp"
 #include "job/toml/job_changes.hpp"
 #include "job/toml/sections.hpp"
 
@@ -78,7 +79,8 @@ FileResult<Job> parse_job(std::string_view text, const std::string& name, const 
     TomlSection root(file, *parsed, "", kJobKeys);
     read_all(root, job);
     auto machine = read_machine(root, job.path, files);
-    if (!machine) return std::unexpected(std::move(machine).error());
+    job.files = file.named();
+    if (!machine) return std::unexpected(at_key(job, std::move(machine).error()));
     job.machine = *std::move(machine);
     if (!file.ok()) return std::unexpected(FileFailure(file.error()));
     return job;

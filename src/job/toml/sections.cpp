@@ -166,7 +166,7 @@ JobPath read_path(TomlFile& file, const toml::table& table) {
         static_cast<motion::Interpolation>(section.word("interpolation", kInterpolationWords).value_or(0));
     path.machine = section.text("machine").value_or("");
     if (is_machine_file(path.machine)) {
-        path.machine = file.beside(path.machine);
+        path.machine = file.beside(path.machine, "machine", table.get("machine")->source());
     } else if (!path.machine.empty()) {
         const Result<motion::Machine> known = motion::named_machine(path.machine);
         if (!known) section.fail("machine", known.error().cause, known.error().remedy);

@@ -40,6 +40,13 @@ std::string TomlFile::beside(const std::string& path) const {
     return file_beside(name_, path);
 }
 
+std::string TomlFile::beside(const std::string& path, std::string_view key,
+                             const toml::source_region& where) {
+    named_.push_back({beside(path), std::string(key), static_cast<int>(where.begin.line),
+                      static_cast<int>(where.begin.column)});
+    return named_.back().path;
+}
+
 void TomlFile::fail(const toml::source_region& where, std::string cause, std::string remedy) {
     fail(Error{name_, static_cast<int>(where.begin.line), static_cast<int>(where.begin.column),
                std::move(cause), std::move(remedy)});
@@ -154,7 +161,7 @@ std::optional<std::string> TomlSection::path(std::string_view key) {
         fail(key, in_quotes(key) + " holds a zero byte", "write a file name");
         return {};
     }
-    return file_.beside(*value);
+    return file_.beside(*value, key, table_.get(key)->source());
 }
 
 std::optional<Vec3> TomlSection::point_of(std::string_view key, const toml::node& node, const Limit& limit,

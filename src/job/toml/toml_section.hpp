@@ -39,6 +39,7 @@
 #include "base/result.hpp"
 #include "base/text/nearest.hpp"
 #include "base/vec3.hpp"
+#include "job/job.hpp"
 
 namespace tribo::job {
 
@@ -52,12 +53,17 @@ class TomlFile {
     const std::string& name() const { return name_; }
     // The path of a file that this one names: as it is when absolute, else from this one's folder.
     std::string beside(const std::string& path) const;
+    // The same, kept with the place of the key that names it.
+    std::string beside(const std::string& path, std::string_view key, const toml::source_region& where);
+    // Those that were kept, in the order of reading.
+    const std::vector<JobFile>& named() const { return named_; }
 
     void fail(const toml::source_region& where, std::string cause, std::string remedy = {});
     void fail(Error error);
 
   private:
     std::string name_;
+    std::vector<JobFile> named_;
     std::optional<Error> error_;
 };
 
@@ -75,7 +81,7 @@ class TomlSection {
     std::optional<std::string> text(std::string_view key);
     // The index of the word among `words`.
     std::optional<std::size_t> word(std::string_view key, std::span<const std::string_view> words);
-    // A file's path, joined with the folder of the file that names it.
+    // A file's path, joined with the folder of the file that names it. Kept in file().named().
     std::optional<std::string> path(std::string_view key);
     std::optional<Vec3> point(std::string_view key, const Limit& limit = kLimits.coordinate);
     // [[x,y,z],[x,y,z]]: two opposite corners with room between them.

@@ -208,7 +208,7 @@ TEST_F(Live, goes_on_with_the_old_cut_while_a_file_is_wrong) {
         {"a typo", [&] { scratch_.put("p.nc", "G21 G90\nG0 X-5 Y5 Z2\nG1 Zx-1\nG1 X25\n"); }, "p.nc",
          R"("line":3)"},
         {"an emptied program", [&] { scratch_.put("p.nc", ""); }, "p.nc", ""},
-        {"a deleted program", [&] { remove("p.nc"); }, "p.nc", "No such file"},
+        {"a deleted program", [&] { remove("p.nc"); }, "job.toml", "names p.nc, which is not there"},
         {"a pipe in its place",
          [&] {
              remove("p.nc");
