@@ -11,6 +11,9 @@ namespace {
 
 // Every cut begins and ends with thin chips: below this share of the cutting time they are no finding.
 constexpr double kRubbingShare = 0.1;
+// A gouge from here on is more than the facets of a usual model; without a tolerance there is no "Yes" beside
+// it.
+constexpr double kPlainGougeMm = 0.01;
 // A probability of chatter from which on it is sure, and one up to which it is ruled out: the bands of modes
 // and forces hold in 9 of 10 cases.
 constexpr double kSure = 0.95, kRuledOut = 0.05;
@@ -129,7 +132,7 @@ class Judge {
 
     void add_part() {
         const std::optional<double> tolerance = model_.limits().tolerance_mm;
-        if (!tolerance) return;
+        if (!tolerance) return add_unjudged_gouge();
         const auto add = [&](const std::optional<double>& error_mm, const char* what, int line,
                              bool by_force) {
             if (!error_mm) return;
@@ -146,6 +149,17 @@ class Judge {
         add(facts_.gouge_mm, "the part has a gouge of ", facts_.gouge_line, false);
         add(facts_.left_mm, "bending leaves ", facts_.left_line, true);
         add(facts_.overcut_mm, "bending cuts too deep by ", facts_.overcut_line, true);
+    }
+
+    void add_unjudged_gouge() {
+        if (!(facts_.gouge_mm.value_or(0) > kPlainGougeMm)) return;
+        const int line = facts_.gouge_line;
+        findings_.push_back({Outcome::undecided,
+                             (line > 0 ? "line " + std::to_string(line) + ": " : "") +
+                                 "the part has a gouge of " + two(*facts_.gouge_mm) +
+                                 " mm, and no tolerance_mm says whether it may",
+                             line,
+                             {}});
     }
 
     std::string within() const {

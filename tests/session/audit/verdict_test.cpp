@@ -105,7 +105,13 @@ TEST(Verdict, knows_a_cut_that_chatters) {
 TEST(Verdict, knows_a_part_out_of_tolerance) {
     EXPECT_EQ(outcome(slot_setup(), {.tolerance_mm = 0.05}, {.gouge_mm = 0.06}), Outcome::over);
     EXPECT_EQ(outcome(slot_setup(), {.tolerance_mm = 0.05}, {.gouge_mm = 0.04}), Outcome::within);
-    EXPECT_EQ(outcome(slot_setup(), {}, {.gouge_mm = 0.06}), Outcome::within);
+    // Without a tolerance it is not "Yes" that stands beside a gouge.
+    EXPECT_EQ(outcome(slot_setup(), {}, {.gouge_mm = 0.009}), Outcome::within);
+    const AuditedCut gouged = audited(slot_setup(), {}, {.gouge_mm = 0.06, .gouge_line = 7});
+    EXPECT_EQ(gouged.verdict.outcome, Outcome::undecided);
+    EXPECT_EQ(
+        gouged.verdict.sentence,
+        "No verdict: line 7: the part has a gouge of 0.06 mm, and no tolerance_mm says whether it may.");
     EXPECT_EQ(outcome(slot_setup(), {.tolerance_mm = 0.05}, {.left_mm = 0.06, .left_line = 7}),
               Outcome::over);
 }
