@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "session/cut/mill_warnings.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "base/math.hpp"
@@ -45,6 +46,26 @@ std::vector<protocol::LiveRow> page_rows(double feed_per_tooth_mm, double feed_f
 
 TEST(MillWarnings, a_cut_as_books_advise_has_none) {
     EXPECT_TRUE(warnings_of(slotted(0.05), "a.toml", "a.nc").empty());
+}
+
+// A cutter wider than the block, along it: below its floor nothing is left, above it a plate is.
+TEST(MillWarnings, a_stock_that_is_milled_away_is_told) {
+    const auto milled = [](double tip_z_mm) {
+        const milling::Cutter cutter{.diameter_mm = 32, .flutes = 4, .length_mm = 20};
+        MillSetup s = block_setup({{0, 0, -5}, {20, 20, 0}}, cutter, MillSetup{}.cell_mm);
+        add_cut(s, straight_cut({-20, 10, tip_z_mm}, {40, 10, tip_z_mm}, 1200));
+        MillSession session(std::move(s), serial_for);
+        session.run({});
+        return session.totals();
+    };
+    const auto is_told = [](const MillTotals& totals) {
+        return std::ranges::any_of(warnings_of(totals, "a.toml", "a.nc"), [](const Warning& warning) {
+            return warning.text.starts_with("nothing is left of the stock");
+        });
+    };
+    EXPECT_TRUE(is_told(milled(-6)));
+    EXPECT_TRUE(is_told(milled(-5)));
+    EXPECT_FALSE(is_told(milled(-4.99)));
 }
 
 TEST(MillWarnings, teeth_that_rub_are_told_with_the_programs_line) {

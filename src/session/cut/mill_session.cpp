@@ -22,6 +22,31 @@ constexpr std::size_t kOfferedMoves = 64;
 constexpr std::size_t kShapesAtOnce = 64;
 // Number of force models, so that several threads have their own.
 constexpr std::size_t kTasks = 32;
+// With a smaller share of the blank left the stock is searched for material: the volumes are rounded.
+constexpr double kLittleLeft = 1e-3;
+// Less deep material is the rounding of faces that a tool has met.
+constexpr float kDeepMm = 1e-4F;
+
+bool has_material(const field::CarvedField& stock, field::BrickCoord at) {
+    const field::BrickRef ref = stock.ref(at);
+    if (ref == field::kAir) return false;
+    if (ref == field::kUntouched && stock.blank().distance_mm(stock.centre(at)) > stock.brick_radius_mm())
+        return false;
+    std::array<float, field::kLatticeNodes> distance_mm;
+    stock.sample_nodes(at, distance_mm.data());
+    return std::ranges::any_of(distance_mm, [](float d) { return d < -kDeepMm; });
+}
+
+bool has_material(const field::CarvedField& stock) {
+    const field::BrickCoord size = stock.size();
+    for (int k = 0; k < size.k; ++k) {
+        for (int j = 0; j < size.j; ++j) {
+            for (int i = 0; i < size.i; ++i)
+                if (has_material(stock, {i, j, k})) return true;
+        }
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -318,6 +343,8 @@ class MillSession::Run {
         totals_.removed_mm3 = stock_.removed_mm3() - removed_earlier_mm3_;
         // Where nothing is left the sums differ by their rounding.
         totals_.remaining_mm3 = std::max(0.0, setup_.blank_volume_mm3 - stock_.removed_mm3());
+        totals_.is_stock_gone =
+            totals_.remaining_mm3 < kLittleLeft * setup_.blank_volume_mm3 && !has_material(stock_);
         if (totals_.fed_mm3 > 0 && !setup_.engagement)
             totals_.energy_balance =
                 totals_.shear_work_j / (1e-3 * setup_.coefficients.ktc * totals_.fed_mm3);

@@ -45,6 +45,7 @@ struct MillTotals : ForceTotals {
     double duration_s = 0;
     double path_mm = 0;                         // feed moves
     double removed_mm3 = 0, remaining_mm3 = 0;  // by this job; at the end
+    bool is_stock_gone = false;                 // nothing is left at the end
     double chip_mm3 = 0;                        // measured, before reconciliation: should equal fed_mm3
     double fed_mm3 = 0;                         // removed by feed moves
     // Where paths begin in the stock (places_in_stock.hpp): what the tool stands in there, and the first

@@ -35,6 +35,11 @@ Warnings warnings_of(const MillTotals& totals, const std::string& job, const std
                             "nothing was cut: the tool never meets the stock; check the path's units and "
                             "zero, and the stock's place"});
     }
+    if (totals.is_stock_gone) {
+        warnings.push_back({job, 0,
+                            "nothing is left of the stock: the program mills all of it away; check the "
+                            "stock's size and place, and the units of program and cutter"});
+    }
     if (totals.stood_in_mm3 > kStoodInMm3) {
         warnings.push_back({program, totals.stood_in_line,
                             "the path begins inside the stock: the " + rounded(totals.stood_in_mm3, 10) +

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Warnings of a finished run: nothing cut, a force that does not balance the removed material, chips that rub
-// or overload.
+// Warnings of a finished run: nothing cut, nothing left, a force that does not balance the removed material,
+// chips that rub or overload.
 #pragma once
 
 #include <string>
