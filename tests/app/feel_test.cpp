@@ -117,6 +117,18 @@ TEST_F(Feel, gives_the_same_trace_twice) {
     EXPECT_EQ(text_of("trace.csv"), first);
 }
 
+// A point has no finger around it; without the flag the finger has 8 mm.
+TEST_F(Feel, refuses_a_finger_without_a_radius) {
+    put("slot.toml", std::string(kSlotJob) + "[haptics]\nprobe = \"cylinder\"\n");
+    const Outcome point = feel({"--probe-mm", "0"});
+    EXPECT_EQ(point.code, 2);
+    EXPECT_TRUE(point.err.starts_with("slot.toml: error: --probe-mm 0 is a point")) << point.err;
+    EXPECT_EQ(feel({}).code, 0);
+    EXPECT_EQ(feel({"--probe-mm", "3"}).code, 0);
+    put("slot.toml", kSlotJob);
+    EXPECT_EQ(feel({"--probe-mm", "0"}).code, 0);
+}
+
 // A probe at the tip, while the slot is cut in steady feed: over whole turns the trace has the mean force of
 // forces.csv, scaled, in the stock's frame (the feed is +x). 6000 rpm: a turn is 10 ticks.
 TEST_F(Feel, gives_the_cutting_force_of_the_program_at_the_time_of_the_stroke) {

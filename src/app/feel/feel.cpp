@@ -333,6 +333,10 @@ int feel(const FeelCall& call) {
     if (auto read = readers::model_format_of_name(call.job) ? read_model(call, part) : read_job(call, part);
         !read)
         return report(read.error());
+    if (call.probe_mm == 0 && part.job.haptics.probe == job::ProbeKind::cylinder) {
+        return report(Error{call.job, 0, 0, "--probe-mm 0 is a point, and probe = \"cylinder\" a finger",
+                            "give its radius, or leave the flag out for one of 8 mm"});
+    }
     const std::string& profile = call.profile.empty() ? part.job.haptics.profile : call.profile;
     if (const auto checked = check_outputs({call.out, call.stats, call.bake}, {profile, call.source});
         !checked) {

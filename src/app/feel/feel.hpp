@@ -15,7 +15,7 @@ struct FeelCall {
     ProgramFlags program;
     std::string mode = "inspect", device = "simulated", stats;
     double rate_hz = 1000;
-    double probe_mm = 0;
+    std::optional<double> probe_mm;  // radius; 0: a point
     ArmCall arm;
     std::optional<double> stiffness_n_per_mm, friction_static, friction_kinetic, resolution_mm, until_s;
     std::optional<double> unit_mm;  // of a model

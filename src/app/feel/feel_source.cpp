@@ -115,7 +115,7 @@ bool FeelSource::mill(session::MillSetup setup, const ParallelFor& parallel) {
 haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) const {
     haptics::ContactOptions contact;
     contact.stiffness_n_per_mm = surface_n_per_mm_;
-    contact.probe_radius_mm = call_.probe_mm;
+    contact.probe_radius_mm = call_.probe_mm.value_or(0);
     // If one of the two flags is given, neither value is taken from the job.
     const bool called = call_.friction_static || call_.friction_kinetic;
     const auto& friction_static = called ? call_.friction_static : job_.haptics.friction_static;
@@ -127,7 +127,7 @@ haptics::ContactOptions FeelSource::contact_options(haptics::ProbeShape& probe) 
     if (job_.haptics.probe == job::ProbeKind::ray) probe = haptics::ProbeShape::ray();
     if (job_.haptics.probe == job::ProbeKind::cylinder) {
         // The radius is that of the finger, not of the points on it.
-        probe = haptics::ProbeShape::cylinder(call_.probe_mm > 0 ? call_.probe_mm : kFingerMm);
+        probe = haptics::ProbeShape::cylinder(call_.probe_mm.value_or(kFingerMm));
         contact.probe_radius_mm = 0;
     }
     return contact;
@@ -150,7 +150,7 @@ void FeelSource::cut(contact::ForceTable table, const ParallelFor& parallel) {
     texture_records_ = textures_.records().size();
     session::CutSourceOptions options;
     options.start_s = start_s_;
-    options.finger_mm = call_.probe_mm;
+    options.finger_mm = call_.probe_mm.value_or(0);
     options.tick_s = 1 / call_.rate_hz;
     options.texture = call_.texture;
     if (stock_) {
