@@ -43,8 +43,9 @@ class FakeBoard {
     std::string port;
     std::atomic<int> step[3] = {0, 0, 0};
     std::atomic<int> mn[3] = {0, 0, 0};
-    std::atomic<int> moving{0};  // steps of x a tick
-    std::atomic<int> missed{0};  // so many of the next positions get lost
+    std::atomic<int> moving{0};     // steps of x a tick
+    std::atomic<int> missed{0};     // so many of the next positions get lost
+    std::atomic<bool> mute{false};  // sends nothing
     std::atomic<bool> noisy{false};
     std::atomic<bool> deaf{false};           // leaves what comes in the port
     std::atomic<int> forces{0}, damaged{0};  // packets that have come
@@ -75,7 +76,7 @@ class FakeBoard {
                 for (int i = 0; good && i < 3; ++i) mn[i] = force.mn[i];
                 held.clear();
             }
-            if (asked) {
+            if (asked && !mute) {
                 ++place.sequence;
                 step[0] += moving;
                 for (int i = 0; i < 3; ++i) place.step[i] = static_cast<std::int16_t>(step[i].load());
@@ -265,6 +266,31 @@ TEST(SerialArm, is_gone_where_its_port_closes) {
     for (int n = 0; n < 100 && state != DeviceState::gone; ++n) state = device->read(reading);
     EXPECT_EQ(state, DeviceState::gone);
     EXPECT_NE(device->trouble().find("gone"), std::string::npos);
+}
+
+TEST(SerialArm, is_gone_where_it_sends_nothing_for_a_second) {
+    FakeBoard board(kHello);
+    auto device = opened(board);
+    ASSERT_NE(device, nullptr);
+    haptics::HandReading reading;
+    ASSERT_TRUE(read_until(*device, reading, [] { return true; }));
+    // Half of that is bearable.
+    board.mute = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    (void)device->read(reading);
+    EXPECT_EQ(device->read(reading), DeviceState::silent);
+    board.mute = false;
+    ASSERT_TRUE(read_until(*device, reading, [] { return true; }));
+    board.mute = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    (void)device->read(reading);  // what had come before
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    EXPECT_EQ(device->read(reading), DeviceState::gone);
+    EXPECT_NE(device->trouble().find("no position has come for 1 s"), std::string::npos) << device->trouble();
+    board.mute = false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    EXPECT_EQ(device->read(reading), DeviceState::gone);  // for good
+    EXPECT_EQ(device->write({1, 0, 0}), DeviceState::gone);
 }
 
 TEST(SerialArm, says_what_to_do_where_there_is_no_port_no_arm_or_nonsense) {

@@ -37,6 +37,8 @@ constexpr double kLeastRateHz = 500, kMostRateHz = 20'000;
 constexpr unsigned kBitsPerByte = 10;
 // Without a packet for so long the firmware switches the force off.
 constexpr std::uint64_t kLetGoNs = 5'000'000;
+// Without a position for so long the arm is gone, though its port is open.
+constexpr std::uint64_t kGoneNs = 1'000'000'000;
 // A line is too slow if it has not taken so many of so many forces.
 constexpr int kForcesCounted = 200, kMostLeftOut = 10;
 // At the end, for the force of zero.
@@ -150,6 +152,7 @@ class SerialArm final : public haptics::Device {
     const haptics::DeviceLimits& limits() const override { return limits_; }
 
     DeviceState read(haptics::HandReading& reading) noexcept override {
+        if (gone_) return DeviceState::gone;
         const std::uint64_t now = wall_ns();
         if (now - place_ns_ > longest_gap_ns_) taken_ = 0;
         bool any = false;
@@ -162,7 +165,11 @@ class SerialArm final : public haptics::Device {
             held_ += static_cast<std::size_t>(count);
             any = take_packets() || any;
         }
-        if (!any) return DeviceState::silent;
+        if (!any) {
+            is_silent_ = place_ns_ > 0 && now - place_ns_ > kGoneNs;
+            if (is_silent_) gone_ = true;
+            return gone_ ? DeviceState::gone : DeviceState::silent;
+        }
         place_ns_ = now;
         reading.position_mm = mounting_.origin_mm + mounting_.scale * place_;
         reading.velocity_mm_per_s = mounting_.scale * speed();
@@ -186,6 +193,10 @@ class SerialArm final : public haptics::Device {
     }
 
     std::string trouble() const override {
+        if (is_silent_) {
+            return "the serial arm is gone: its port is open, and no position has come for 1 s; see whether "
+                   "its board hangs or has restarted";
+        }
         if (gone_) return "the serial arm is gone: its port has closed";
         if (is_line_slow_) {
             return "the line carries fewer forces than the servo makes, and some were not sent; take a "
@@ -260,7 +271,7 @@ class SerialArm final : public haptics::Device {
     std::uint64_t tick_ = 0;     // of the arm; the low byte is the number of its last position
     std::uint64_t sent_ns_ = 0;  // when the last force was sent
     int forces_ = 0, left_out_ = 0;
-    std::atomic<bool> gone_{false}, is_line_slow_{false};
+    std::atomic<bool> gone_{false}, is_silent_{false}, is_line_slow_{false};
 };
 
 Result<Port> open_port(const SerialArmOptions& options) {

@@ -22,9 +22,9 @@ struct SerialArmOptions {
 };
 
 // Reads and writes on the servo thread, without waiting. A force that would have to wait for the line is
-// left out, and the next one is newer. After 5 ms without one the arm refuses. The firmware of the arm
-// switches the force off after 5 ms without a force packet. Errors give a remedy: no port, no rights, no
-// answer, another version, no position.
+// left out, and the next one is newer. After 5 ms without one the arm refuses. After 1 s without a position
+// the arm is gone. The firmware of the arm switches the force off after 5 ms without a force packet. Errors
+// give a remedy: no port, no rights, no answer, another version, no position.
 Result<std::unique_ptr<haptics::Device>> open_serial_arm(const SerialArmOptions& options);
 
 // The first line of the arm. Missing values keep their defaults. A value that is no number or out of range is
