@@ -249,6 +249,37 @@ TEST(Haply, is_gone_when_the_service_has_lost_the_arm) {
     }
 }
 
+// Positions without a calibration are none.
+TEST(Haply, is_gone_when_it_is_no_longer_calibrated) {
+    std::atomic<int> left{5};
+    std::atomic<int> asked_after{0};
+    std::mutex mutex;
+    std::string last;
+    Service service(inventory_at(0, -0.12, 0.15), [&](const std::string& text) {
+        const std::lock_guard lock(mutex);
+        last = text;
+        if (left-- > 0) return inventory_at(0, 0, 0.001);
+        ++asked_after;
+        return inventory_at(0, 0, 0.5, false);
+    });
+    auto device = open_haply(at(service));
+    ASSERT_TRUE(device.has_value()) << device.error().text();
+    haptics::HandReading reading;
+    for (int n = 0; n < 8000 && (*device)->read(reading) != DeviceState::gone; ++n) {
+        (void)(*device)->write({0, 0, 1});
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_EQ((*device)->read(reading), DeviceState::gone);
+    EXPECT_NE((*device)->trouble().find("no longer calibrated"), std::string::npos) << (*device)->trouble();
+    EXPECT_LT(reading.position_mm.z, 2);  // none of the others was taken
+    // The last word is a force of zero.
+    for (int n = 0; n < 4000 && asked_after < 2; ++n)
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::lock_guard lock(mutex);
+    const auto force = nlohmann::json::parse(last)["inverse3"][0]["commands"]["set_cursor_force"]["vector"];
+    EXPECT_EQ(force, (nlohmann::json{{"x", 0.0}, {"y", 0.0}, {"z", 0.0}})) << last;
+}
+
 TEST(Haply, is_silent_while_a_reply_is_late) {
     Service service(state_at(0, 0, 0), [&](const std::string&) {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));

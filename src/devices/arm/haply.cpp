@@ -151,14 +151,19 @@ class Haply final : public haptics::Device {
             got = is_open ? client_->receive(text) : Got::closed;
             if (got == Got::closed) break;
             if (got == Got::message && read_haply_state(text, state_)) {
+                if (!state_.calibrated) break;  // its positions are none
                 publish();
                 state_ns = wall_ns();
             }
         }
-        why_gone_ = got == Got::closed ? "the service has closed the connection"
-                    : got == Got::late ? "the service has fallen silent"
-                                       : "the service gives no position of the Inverse3 any more (is it "
-                                         "unplugged or switched off?); it answers '" +
+        if (!state_.calibrated) client_->send(haply_force_command(state_, {}));
+        why_gone_ = !state_.calibrated
+                        ? "the Inverse3 is no longer calibrated: put its grip on the inkwell until "
+                          "the light is steady"
+                    : got == Got::closed ? "the service has closed the connection"
+                    : got == Got::late   ? "the service has fallen silent"
+                                         : "the service gives no position of the Inverse3 any more (is it "
+                                           "unplugged or switched off?); it answers '" +
                                              printable(text.substr(0, kShownOfAnswer)) + "'";
         gone_.store(true, std::memory_order_release);
     }
