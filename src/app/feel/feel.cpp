@@ -45,6 +45,8 @@ namespace {
 constexpr double kMostTicks = 20e6;
 // With a real clock, the part in cut mode is milled at this interval.
 constexpr std::chrono::milliseconds kMillEvery{5};
+// Drivers and firmware let an arm go 5 ms after a force. With ticks of 4 ms one may be a little late.
+constexpr double kLeastArmRateHz = 250;
 
 report::DurationFigures figures_of(const devices::DurationHistogram& histogram) {
     const auto us = [](std::uint64_t ns) { return 1e-3 * static_cast<double>(ns); };
@@ -359,6 +361,12 @@ int feel(const FeelCall& call) {
     for (const auto& [flag, is_given] : flags_of_a_cut(call)) {
         if (call.mode != "cut" && is_given)
             part.warnings.push_back({call.job, 0, std::string(flag) + " says nothing without --mode cut"});
+    }
+    if ((*device)->has_motors() && call.rate_hz < kLeastArmRateHz) {
+        part.warnings.push_back({call.job, 0,
+                                 "--rate " + format_digits(call.rate_hz, 4) +
+                                     " chops the force: an arm lets go 5 ms after each; take " +
+                                     format_digits(kLeastArmRateHz, 4) + " or more"});
     }
     report(part.warnings);
     FeelSource felt(call, part.job, surface_n_per_mm, start_s, (*device)->limits());
