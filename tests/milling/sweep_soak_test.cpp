@@ -39,7 +39,7 @@ Cutter any_cutter(Draw& draw) {
     c.kind = static_cast<CutterKind>(draw.below(3));
     c.diameter_mm = draw.size(0.1, 25);
     if (c.kind == CutterKind::bull) c.corner_mm = draw.number(0.03, 0.97) * c.radius_mm();
-    c.length_mm = 40;
+    c.length_mm = draw.below(2) == 0 ? 40 : draw.number(0.51, 2) * c.diameter_mm;
     return c;
 }
 
@@ -88,11 +88,6 @@ Found compare(Draw& draw, long wanted, double tolerance_mm) {
                 (sweep->distance_mm(middle) < 0 ? in : out) = middle;
             }
             const Vec3 p = draw.below(4) == 0 ? in + draw.vector(0.5) : in;
-            // The tool's flat top is no part of the promise.
-            const double below_top = c.length_mm - 10;
-            if (dot(p - m.start.tip_mm, m.start.axis) > below_top ||
-                dot(p - m.end.tip_mm, m.end.axis) > below_top)
-                continue;
             const double error = std::abs(sweep->distance_mm(p) - brute_distance(c, m, p));
             ++found.points;
             if (error >= tolerance_mm) ++found.off;

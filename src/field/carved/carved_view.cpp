@@ -73,7 +73,7 @@ std::optional<Vec3> CarvedView::overlap(const Shape& shape, double depth_mm) con
         if (ref == kUntouched && field_.blank().distance_mm(c) > radius) return false;
         const Lattice nodes = field_.lattice(brick);
         field_.sample_nodes(brick, own.data());
-        shape.sample(nodes, other.data());
+        shape.sample_near(nodes, radius, other.data());
         bool is_deeper = raise(other, 1);
         for (std::size_t at = 0; is_deeper && at < pending_.size(); ++at) {
             const Shape& gone = *pending_[at].shape;

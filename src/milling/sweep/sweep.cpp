@@ -31,6 +31,7 @@ using field::kLatticeEdge;
 #include "milling/sweep/sweep_search.inl"
 #include "milling/sweep/sweep_distance.inl"
 #include "milling/sweep/sweep_curved.inl"
+#include "milling/sweep/sweep_top.inl"
 // clang-format on
 
 // Calls f with the kind as a constant, so that each formula is compiled for its profile.
@@ -46,6 +47,9 @@ auto by_kind(CutterKind kind, const F& f) {
     }
     return f.template operator()<CutterKind::flat>();
 }
+
+// A point that is so much nearer to the side than to the top of the tool is beside it, mm.
+constexpr double kTopEdge = 1e-5;
 
 bool are_parallel(Vec3 a, Vec3 b) {
     constexpr double kSine = 1e-12;
@@ -123,6 +127,19 @@ SweptNormal swept_normal(const ToolProfile& tool, const ToolView& v, double t) {
     return {normalized(n.by_rho * v.radial + n.by_z * v.axis, -v.axis)};
 }
 
+// The same for the tool with its top: its upper half is that of a flat cutter upside down.
+SweptNormal closed_normal(ToolProfile tool, ToolView v, double t) {
+    const double below_top = tool.length_mm - v.z;
+    if (below_top < 0.5 * tool.length_mm && v.rho - tool.radius_mm <= kTopEdge - below_top) {
+        tool.kind = CutterKind::flat;
+        tool.corner_mm = 0;
+        v.axis = -v.axis;
+        v.z = below_top;
+        v.dz = -v.dz;
+    }
+    return swept_normal(tool, v, t);
+}
+
 // The same of an upright travel, in its frame. Of a ball it points away from the centre, or from the place of
 // the axis above it that is as high as the point.
 SweptNormal swept_normal(const ToolProfile& tool, const UprightLine& line, Vec3 q, double t) {
@@ -130,6 +147,21 @@ SweptNormal swept_normal(const ToolProfile& tool, const UprightLine& line, Vec3 
     const Vec3 off = from_axis(line, q, t);
     const double below = std::min(q.z - t * line.rise - tool.radius_mm, 0.0);
     return {normalized({off.x, off.y, below}, {0, 0, -1})};
+}
+
+// Returns distance and gradient of the sweep of the tool with its top. `d`: the point relative to the tip at
+// the start.
+field::Shape::Slope closed_slope(const ToolProfile& tool, const CurvedLine& line, Vec3 d) {
+    const auto nearest = by_kind(tool.kind, [&]<CutterKind kind>() {
+        return closed_nearest<kind>(Profile<double>(tool), line, d, kNever);
+    });
+    const SweptNormal n = closed_normal(tool, view(line, d, nearest.t), nearest.t);
+    return {nearest.distance, n.normal, n.way_per_mm};
+}
+
+// The travel in its own frame.
+CurvedLine as_curve(const StraightLine& line) {
+    return {{line.across, 0, line.rise}, {}, {0, 0, 1}, {}, {}};
 }
 
 // Distance and gradient of a straight sweep at a point (x, y, z) of its frame.
@@ -142,8 +174,11 @@ field::Shape::Slope straight_slope(const ToolProfile& tool, const StraightLine& 
         const double t = unit_clamp(q.x * l.per_across), dx = q.x - t * l.across;
         return Least<double>{profile_distance<kind>(p, dx * dx + q.y * q.y, q.z), t};
     });
-    const double cap = q.z - std::max(line.rise, 0.0) - tool.length_mm;
-    if (cap > nearest.distance) return {cap, frame.z};
+    if (!is_below_top(tool, nearest, q.z - nearest.t * line.rise)) {
+        field::Shape::Slope slope = closed_slope(tool, as_curve(line), q);
+        slope.gradient = frame.out_of(slope.gradient);
+        return slope;
+    }
     const SweptNormal n = swept_normal(tool, UprightLine{line.across, 0, 0, line.rise}, q, nearest.t);
     return {nearest.distance, frame.out_of(n.normal), n.way_per_mm};
 }
@@ -160,8 +195,13 @@ double straight_distance(const ToolProfile& tool, const StraightLine& line, Vec3
     const double below = tool.kind == CutterKind::ball ? std::max(lowest + tool.radius_mm - q.z, 0.0) : 0;
     if (reach > 0 && off * off + q.y * q.y + below * below >= reach * reach) return bound;
     return by_kind(tool.kind, [&]<CutterKind kind>() {
-        return line.rise == 0 ? level_distance<kind>(p, l, q.x, q.y, q.z)
-                              : ramp_distance<kind>(p, l, q.x, q.y, q.z, kNever);
+        if (line.rise == 0) return level_distance<kind>(p, l, q.x, q.y, q.z);
+        const Least<double> least = ramp_nearest<kind>(p, l, q.x, q.y, q.z, kNever);
+        if (least.distance >= bound || is_below_top(tool, least, q.z - least.t * line.rise))
+            return least.distance;
+        const double above_all = q.z - std::max(line.rise, 0.0) - tool.length_mm;
+        if (above_all >= bound) return bound;
+        return closed_nearest<kind>(p, as_curve(line), q, bound).distance;
     });
 }
 
@@ -193,6 +233,11 @@ class StraightSweep final : public field::Shape {
 
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
         sweep_kernels().straight(tool_, path_.line, path_.frame, path_.start, lattice, near_mm, out);
+        if (path_.line.rise == 0) return;
+        sample_tops(*this, lattice, near_mm, nullptr, out, [this](Vec3 point, double around) {
+            return dot(point - path_.start, path_.frame.z) + around - std::min(path_.line.rise, 0.0) -
+                   tool_.length_mm;
+        });
     }
 
   private:
@@ -276,19 +321,35 @@ class CurvedSweep final : public field::Shape {
     // The same without a look at cheap bounds first, where none is expected to hold.
     double searched_below(Vec3 point, double bound) const {
         const Vec3 d = point - start_;
-        if (const auto near = upright_nearest(d))
-            return std::max(near->distance_mm, upright_->lowest_mm(d) - tool_.length_mm);
-        Floors floors;
-        sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
-        return std::max(nearest(floors, d, bound).distance,
-                        static_cast<double>(floors.lowest) - tool_.length_mm);
+        double above_all = 0;
+        Least<double> least{};
+        if (const auto near = upright_nearest(d)) {
+            least = {near->distance_mm, near->t};
+            above_all = upright_->lowest_mm(d) - tool_.length_mm;
+        } else {
+            Floors floors;
+            sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
+            least = nearest(floors, d, bound);
+            above_all = static_cast<double>(floors.lowest) - sag_mm(d) - tool_.length_mm;
+        }
+        if (least.distance >= bound || above_all >= bound) return bound;
+        if (is_below_top(tool_, least, height_at(d, least.t))) return least.distance;
+        return by_kind(tool_.kind, [&]<CutterKind kind>() {
+            return closed_nearest<kind>(Profile<double>(tool_), line_, d, bound).distance;
+        });
     }
 
     bool is_searched() const override { return true; }
 
     bool is_whole_along(Vec3 direction) const override {
         constexpr double kStill = 1e-12;  // rad
-        return line_.bounds.turn <= kStill && are_parallel(direction, line_.axis0);
+        // At each instant the tool holds a piece of a line along its axis. If the path does not rise by more
+        // than the cylinder is long, all these pieces have a point in common.
+        const double half = dot(0.5 * line_.tip1, line_.axis0),
+                     end = dot(line_.tip1 + line_.tip2, line_.axis0);
+        const double rise = std::max({half, end, 0.0}) - std::min({half, end, 0.0});
+        return line_.bounds.turn <= kStill && are_parallel(direction, line_.axis0) &&
+               rise <= tool_.length_mm - tool_.corner_mm;
     }
 
     Vec3 gradient(Vec3 point) const override { return slope(point).gradient; }
@@ -296,35 +357,24 @@ class CurvedSweep final : public field::Shape {
     Slope slope(Vec3 point) const override {
         const Vec3 d = point - start_;
         if (const auto near = upright_nearest(d)) {
-            const double cap = upright_->lowest_mm(d) - tool_.length_mm;
+            if (!is_below_top(tool_, {near->distance_mm, near->t}, height_at(d, near->t)))
+                return closed_slope(tool_, line_, d);
             const Frame& frame = upright_->frame();
-            if (cap > near->distance_mm) return {cap, frame.z};
             const SweptNormal n = swept_normal(tool_, upright_->line(), frame.into(d), near->t);
             return {near->distance_mm, frame.out_of(n.normal), n.way_per_mm};
         }
         Floors floors;
         sweep_kernels().floors(tool_, instants_, line_.bounds, d, floors);
         const Least<double> least = nearest(floors, d, kNever);
-        const double cap = static_cast<double>(floors.lowest) - tool_.length_mm;
-        if (cap <= least.distance) {
-            return by_kind(tool_.kind, [&]<CutterKind kind>() -> Slope {
-                const Profile<double> p(tool_);
-                const double t = sharpened<kind>(p, line_, d, least.t);
-                const ToolView v = view(line_, d, t);
-                const SweptNormal n = swept_normal(tool_, v, t);
-                const double distance = profile_distance<kind>(p, v.rho * v.rho, v.z);
-                return {std::min(distance, least.distance), n.normal, n.way_per_mm};
-            });
-        }
-        double lowest = kNever;
-        Vec3 top = line_.axis0;
-        for (int k = 0; k < CurvedInstants::kCount; ++k) {
-            const double t = static_cast<double>(k) / (CurvedInstants::kCount - 1);
-            const Vec3 axis = axis_at(line_, t);
-            const double height = dot(d - tip_at(line_, t), axis);
-            if (height < lowest) lowest = height, top = axis;
-        }
-        return {cap, top};
+        if (!is_below_top(tool_, least, height_at(d, least.t))) return closed_slope(tool_, line_, d);
+        return by_kind(tool_.kind, [&]<CutterKind kind>() -> Slope {
+            const Profile<double> p(tool_);
+            const double t = sharpened<kind>(p, line_, d, least.t);
+            const ToolView v = view(line_, d, t);
+            const SweptNormal n = swept_normal(tool_, v, t);
+            const double distance = profile_distance<kind>(p, v.rho * v.rho, v.z);
+            return {std::min(distance, least.distance), n.normal, n.way_per_mm};
+        });
     }
 
     void sample(const field::Lattice& lattice, float* out) const override {
@@ -343,11 +393,29 @@ class CurvedSweep final : public field::Shape {
         } else {
             sweep_kernels().curved(tool_, line_, instants_, start_, lattice, near_mm, known, out);
         }
+        sample_tops(*this, lattice, near_mm, known, out, [this](Vec3 point, double around) {
+            const Vec3 d = point - start_;
+            const double reach = reach_of(d) + around;
+            const double moved = 0.5 * (line_.bounds.speed + line_.bounds.turn * reach);
+            return height_at(d, 0.5) + moved + around - tool_.length_mm;
+        });
     }
 
   private:
-    // The highest position of the cap counts for the whole sweep. Returns how far it may be above the cap at
-    // any other instant.
+    double height_at(Vec3 d, double t) const { return dot(d - tip_at(line_, t), axis_at(line_, t)); }
+    // No less than how far the height of a point falls below its least at the instants of Floors between two
+    // of them, with rounding.
+    double sag_mm(Vec3 d) const {
+        constexpr double kSteps = CurvedInstants::kCount - 1, kHeightRounding = 1e-3;
+        const PointBounds<double> bounds =
+            bounds_of<double>(Profile<double>(tool_), line_.bounds, d.x, d.y, d.z);
+        return bounds.bend / (8 * kSteps * kSteps) + kHeightRounding;
+    }
+    // No less than the distance from the tip at any instant.
+    double reach_of(Vec3 d) const { return length(d - line_.bounds.middle) + line_.bounds.spread; }
+
+    // The box holds the highest position of the cap all along the sweep. Returns how far it may be above the
+    // cap at any other instant.
     double cap_rise_mm() const {
         const TravelBounds& b = line_.bounds;
         double rise = 0;

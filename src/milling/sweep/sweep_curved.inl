@@ -169,17 +169,25 @@ TRIBO_LANES Part nearest_part(const Profile<F8>& p, const CurvedInstants& c, con
     return part;
 }
 
-template <CutterKind kind>
-TRIBO_LANES Instant<double> curved_instant(const Profile<double>& p, const CurvedLine& c, Vec3 point,
-                                           double t) {
+// The tool at one instant as seen from a point; the names are those of instant().
+struct Seen {
+    double rho_squared, half_rate, z, dz, way_squared;
+};
+inline Seen seen_at(const CurvedLine& c, Vec3 point, double t) {
     const Vec3 d = point - tip_at(c, t), velocity = c.tip1 + 2 * t * c.tip2;
     const Vec3 n = c.axis0 + t * (c.axis1 + t * c.axis2), turning = c.axis1 + 2 * t * c.axis2;
     const double per_squared = 1 / dot(n, n), per = std::sqrt(per_squared), z = dot(d, n) * per;
     const double growth = dot(n, turning) * per_squared, along = dot(velocity, n) * per;
     const double dz = (dot(d, turning) * per - z * growth) - along;
     const Vec3 way = velocity + (z * per) * (turning - growth * n);
-    return instant<kind>(p, max(dot(d, d) - z * z, 0.0), -dot(d, velocity) - z * dz, z, dz,
-                         dot(way, way) - along * along);
+    return {max(dot(d, d) - z * z, 0.0), -dot(d, velocity) - z * dz, z, dz, dot(way, way) - along * along};
+}
+
+template <CutterKind kind>
+TRIBO_LANES Instant<double> curved_instant(const Profile<double>& p, const CurvedLine& c, Vec3 point,
+                                           double t) {
+    const Seen s = seen_at(c, point, t);
+    return instant<kind>(p, s.rho_squared, s.half_rate, s.z, s.dz, s.way_squared);
 }
 
 // Returns a lower bound of the distance from the middle instant alone. It is cheap, and useful for short
@@ -411,7 +419,6 @@ template <CutterKind kind>
 TRIBO_LANES F8 curved_row(const Profile<F8>& p, SeenRow& row, const PointBounds<F8>& bounds,
                           const Needed<F8>& needed) {
     row.fill(SeenFrame::kNodes, row.frame.node(row.frame.last + 1));
-    F8 lowest = broadcast<F8>(kNever);
     const auto seen = [&](const F8(&value)[3], const F8(&rate)[3]) {
         return instant<kind>(p, value[0] * value[0] + value[1] * value[1],
                              value[0] * rate[0] + value[1] * rate[1], value[2], rate[2],
@@ -443,12 +450,9 @@ TRIBO_LANES F8 curved_row(const Profile<F8>& p, SeenRow& row, const PointBounds<
         const int first = row.frame.node(n);
         const F8 value[3] = {row.entry(first), row.entry(first + 1), row.entry(first + 2)};
         const F8 rate[3] = {row.entry(first + 3), row.entry(first + 4), row.entry(first + 5)};
-        lowest = min(lowest, value[2]);
         return seen(value, rate);
     };
-    const F8 distance =
-        least_over < kind ==
-        CutterKind::flat >
-            (row.frame.stretches, row.frame.first, row.frame.last, bounds, needed, node, at).distance;
-    return max(distance, lowest - p.L);
+    return least_over < kind ==
+           CutterKind::flat >
+               (row.frame.stretches, row.frame.first, row.frame.last, bounds, needed, node, at).distance;
 }

@@ -56,6 +56,10 @@ class JoinedStraightSweep final : public field::Shape {
 
     void sample_near(const field::Lattice& lattice, double near_mm, float* out) const override {
         sweep_kernels().joined_straight(tool_, parts_, whole_.frame, whole_.start, lattice, near_mm, out);
+        if (lowest_mm_ == highest_mm_) return;
+        sample_tops(*this, lattice, near_mm, nullptr, out, [this](Vec3 point, double around) {
+            return dot(point - whole_.start, whole_.frame.z) + around - lowest_mm_ - tool_.length_mm;
+        });
     }
 
   private:

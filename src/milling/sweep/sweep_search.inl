@@ -81,10 +81,14 @@ TRIBO_LANES T bend_of(const Stretch<T>& s, T width, const PointBounds<T>& p) {
     return select(convex, broadcast<T>(0), p.bend);
 }
 
+// How many edges of the tool may be seen over a stretch. The gap tells of one; with more, no bottom is
+// predicted.
+constexpr int kNoEdge = 0, kOneEdge = 1, kManyEdges = 2;
+
 // Returns the value that the search must reach over the stretch before it may stop. It is the lower one of
 // two values: the true bound, raised by the tolerance of `kProven`, and in a valley the bottom that the
 // slopes at its ends predict.
-template <bool kEdge, class T>
+template <int kEdges, class T>
 TRIBO_LANES T floor_of(const Stretch<T>& s, const PointBounds<T>& p) {
     const T zero = broadcast<T>(0), half = broadcast<T>(0.5), tiny = broadcast<T>(1e-30);
     const Instant<T>&a = s.a, &b = s.b;
@@ -96,7 +100,8 @@ TRIBO_LANES T floor_of(const Stretch<T>& s, const PointBounds<T>& p) {
     const auto valley = both(a.slope<zero, b.slope> zero);
     const T gentle = min(-a.slope, b.slope);
     T bottom = min(a.distance, b.distance) - half * gentle * gentle * width / steepness;
-    if constexpr (kEdge) bottom = select(a.gap * b.gap < zero, bound, bottom);
+    if constexpr (kEdges == kOneEdge) bottom = select(a.gap * b.gap < zero, bound, bottom);
+    if constexpr (kEdges == kManyEdges) bottom = bound;
     return min(bound + broadcast<T>(kProven<T> - kSettled<T>), select(valley, bottom, ends));
 }
 
@@ -170,9 +175,10 @@ TRIBO_LANES T goal_of(const Least<T>& least, const Needed<T>& needed) {
 
 // Searches a stretch with known ends until nothing in it can lie below the least: depth first, each lane with
 // its own stack of pending stretches.
-template <bool kEdge, class T, class F>
+template <int kEdges, class T, class F>
 TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, const Needed<T>& needed,
                         Least<T>& least, const F& at) {
+    constexpr bool kEdge = kEdges != kNoEdge;
     const T zero = broadcast<T>(0), one = broadcast<T>(1), never = broadcast<T>(kNever);
     constexpr int kDepth = std::is_same_v<T, double> ? 32 : 12;
     constexpr double kMostLooks = std::is_same_v<T, double> ? 200 : 50;
@@ -199,7 +205,7 @@ TRIBO_LANES void search(Stretch<T> s, T floor, const PointBounds<T>& p, const Ne
         const Instant<T> c = at(t);
         take(least, select(active, c.distance, never), t);
         const Stretch<T> left{s.lo, t, s.a, c}, right{t, s.hi, c, s.b};
-        const T below_left = floor_of<kEdge>(left, p), below_right = floor_of<kEdge>(right, p);
+        const T below_left = floor_of<kEdges>(left, p), below_right = floor_of<kEdges>(right, p);
         const auto left_first = below_left < below_right;
         const T second = max(below_left, below_right);
         goal = goal_of(least, needed);
