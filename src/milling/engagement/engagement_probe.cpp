@@ -466,6 +466,22 @@ bool EngagementProbe::touches(const field::CarvedView& stock, const CutPose& pos
                        [](const MeridianStretch& stretch) { return stretch.engaged; });
 }
 
+bool EngagementProbe::touches(const field::CarvedView& stock, const CutPose& pose,
+                              const Engagement& near_by) {
+    const auto is_in_material = [&](const ProfilePoint& at, double entry, double exit) {
+        const double r = at.radius_mm;
+        const AxisCircle circle{pose.on_axis(at.height_mm), r * pose.frame.x, r * pose.frame.y, r};
+        return stock.is_material(circle.at(0.5 * (entry + exit)), kSkin);
+    };
+    for (const EngagementBand& b : near_by.bands) {
+        const ProfilePoint at = profile_.at(profile_.at_height(0.5 * (b.z0_mm + b.z1_mm)));
+        if (is_in_material(at, b.entry_rad, b.exit_rad)) return true;
+    }
+    for (const BottomBand& b : near_by.bottom)
+        if (is_in_material(point_of(b, 0.5 * (b.r0_mm + b.r1_mm)), b.entry_rad, b.exit_rad)) return true;
+    return touches(stock, pose);
+}
+
 double chip_mm3(const Cutter& cutter, const Engagement& engagement, const ToolTravel& travel) {
     const CutterProfile profile(cutter);
     // Gauss-Legendre along the meridian, closed form over the rotation.

@@ -27,6 +27,8 @@ class EngagementProbe {
     void measure_core(const field::CarvedView& stock, const CutPose& pose, Engagement& out);
     // Returns true if the scout finds any contact at this pose.
     bool touches(const field::CarvedView& stock, const CutPose& pose);
+    // The same, cheaper where something of an engagement of a pose near by still holds.
+    bool touches(const field::CarvedView& stock, const CutPose& pose, const Engagement& near_by);
 
   private:
     // A circle, its engaged arcs, and the stretch of the meridian that it stands for.

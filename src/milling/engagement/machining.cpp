@@ -220,18 +220,26 @@ void Machining::measure_rows(std::size_t first, std::size_t last, std::vector<En
     }
 }
 
-bool Machining::touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const {
+CutPose Machining::pose_at(const Turn& turn, double at) const {
     constexpr double kAround = 1e-4;  // fraction of the pass, for the direction of travel
-    const Sweep& sweep = sweeps_[turn.step];
     Vec3 x = turn.x;
-    const CutPose pose = pose_between(turn.step, std::max(at - kAround, 0.0), std::min(at + kAround, 1.0), x);
-    return probes[sweep.step.cutter].touches(before(sweep), pose);
+    return pose_between(turn.step, std::max(at - kAround, 0.0), std::min(at + kAround, 1.0), x);
+}
+
+bool Machining::touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const {
+    const Sweep& sweep = sweeps_[turn.step];
+    return probes[sweep.step.cutter].touches(before(sweep), pose_at(turn, at));
+}
+
+bool Machining::touches_at_end(const Turn& last, const Engagement& of_last_row) {
+    const Sweep& sweep = sweeps_[last.step];
+    return probes_.front()[sweep.step.cutter].touches(before(sweep), pose_at(last, 1), of_last_row);
 }
 
 // Finds the turns between rows. A row is represented by its middle. If one row cuts and the next does not,
 // contact turned between their middles. Of two passes only the later one is divided, so that the result does
-// not depend on the number of passes in a run. The end of a pass counts as one more middle if it cuts, as the
-// end of a plunge may.
+// not depend on the number of passes in a run. The end of a pass counts as one more middle: a plunge may
+// begin to cut there, and leave the part.
 void Machining::find_turns(const Machined& out) {
     turns_.clear();
     std::size_t row = 0;
@@ -249,8 +257,8 @@ void Machining::find_turns(const Machined& out) {
             if (next.into != last.into) turns_.push_back(next);
             last = next;
         }
-        if (row > first && !last.into && touches(last, 1, probes_.front())) {
-            last = {step, last.x, last.after, 1, true};
+        if (row > first && touches_at_end(last, out.rows[row - 1].engagement) != last.into) {
+            last = {step, last.x, last.after, 1, !last.into};
             turns_.push_back(last);
         }
         end_ = {last.into, sweep.step.cutter, sweeps_[next_step - 1].step.move->end.tip_mm};

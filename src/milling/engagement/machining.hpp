@@ -87,7 +87,9 @@ class Machining {
         double before = 0, after = 0;
         bool into = false;
     };
+    CutPose pose_at(const Turn& turn, double at) const;
     bool touches(const Turn& turn, double at, std::vector<EngagementProbe>& probes) const;
+    bool touches_at_end(const Turn& last, const Engagement& of_last_row);
     void find_turns(const Machined& out);
     void divide_rows_at_turns(Machined& out);
     void find_contact(std::size_t number, Sweep& sweep) const;
