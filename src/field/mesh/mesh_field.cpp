@@ -24,7 +24,6 @@ Result<std::unique_ptr<MeshField>> MeshField::make(TriangleMesh mesh, double thi
     weld_exactly(mesh);
     std::erase_if(mesh.triangles, is_degenerate);
     if (!(area_mm2(mesh) > 0)) return fail("the model has no surface", "check that it holds triangles");
-    turn_neighbours(mesh);
     const bool two_sided = drop_twins(mesh);
     part_at_crowded_edges(mesh);
     const MeshNormals normals(mesh);

@@ -71,38 +71,39 @@ bool are_equal(const Known& a, const Known& b) {
     return a.vertices == b.vertices && a.rising == b.rising;
 }
 
-}  // namespace
-
-void turn_neighbours(TriangleMesh& mesh) {
-    const std::vector<Known> all = in_order(mesh);
-    if (std::ranges::adjacent_find(all, are_equal) == all.end()) return;
+// Turns closed bodies that are inside out and share a triangle with another: it is there twice with one side,
+// which two bodies with their fronts outside cannot have.
+void turn_neighbours(TriangleMesh& mesh, const std::vector<Known>& all) {
     TriangleMesh parted = mesh;
     part_at_crowded_edges(parted);
     std::size_t count = 0;
-    const std::vector<std::uint32_t> body = components_of(parted, count);
+    const std::vector<std::uint32_t> body_of_vertex = components_of(parted, count);
+    const auto body_of = [&](std::size_t triangle) { return body_of_vertex[parted.triangles[triangle][0]]; };
+    std::vector<bool> shares(count), turns(count);
+    for (std::size_t n = 1; n < all.size(); ++n)
+        if (are_equal(all[n - 1], all[n]))
+            shares[body_of(all[n - 1].triangle)] = shares[body_of(all[n].triangle)] = true;
     std::vector<TriangleMesh> bodies(count);
-    for (const Triangle& t : parted.triangles) {
-        bodies[body[t[0]]].triangles.push_back(t);
-    }
-    std::vector<bool> touches(count), turns(count);
-    for (std::size_t n = 1; n < all.size(); ++n) {
-        if (!are_equal(all[n - 1], all[n])) continue;
-        for (const Known& one : {all[n - 1], all[n]}) touches[body[parted.triangles[one.triangle][0]]] = true;
-    }
+    for (std::size_t n = 0; n < parted.triangles.size(); ++n)
+        if (shares[body_of(n)]) bodies[body_of(n)].triangles.push_back(parted.triangles[n]);
     for (std::size_t n = 0; n < count; ++n) {
-        if (!touches[n] || !is_watertight(bodies[n])) continue;
-        bodies[n].positions = parted.positions;
+        if (!is_watertight(bodies[n])) continue;
+        std::swap(bodies[n].positions, parted.positions);
         turns[n] = volume_mm3(bodies[n]) < 0;
-        bodies[n] = {};
+        std::swap(bodies[n].positions, parted.positions);
     }
-    for (std::size_t n = 0; n < mesh.triangles.size(); ++n) {
-        Triangle& t = mesh.triangles[n];
-        if (turns[body[parted.triangles[n][0]]]) std::swap(t[1], t[2]);
-    }
+    for (std::size_t n = 0; n < mesh.triangles.size(); ++n)
+        if (turns[body_of(n)]) std::swap(mesh.triangles[n][1], mesh.triangles[n][2]);
 }
 
+}  // namespace
+
 bool drop_twins(TriangleMesh& mesh) {
-    const std::vector<Known> all = in_order(mesh);
+    std::vector<Known> all = in_order(mesh);
+    if (std::ranges::adjacent_find(all, are_equal) != all.end()) {
+        turn_neighbours(mesh, all);
+        all = in_order(mesh);
+    }
     std::vector<bool> one(mesh.triangles.size()), rest(mesh.triangles.size());
     bool any = false;
     for (std::size_t first = 0, end = 0; first < all.size(); first = end) {

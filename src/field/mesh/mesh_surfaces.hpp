@@ -7,14 +7,10 @@
 
 namespace tribo::field {
 
-// Turns closed bodies that are inside out and share a triangle with a neighbour, as a half beside its mirror
-// image: the triangle is there twice with one side, which two bodies with their fronts outside cannot have.
-// The mesh is welded.
-void turn_neighbours(TriangleMesh& mesh);
-
-// Keeps one of equal triangles. Of two that differ in their side only, as at the wall between two blocks, it
-// drops both if what is left encloses a volume; else it keeps one. Returns true if it has: that surface was
-// there with both sides. The mesh is welded.
+// Keeps one of equal triangles. But where closed bodies share one and one of them is inside out, as a half
+// beside its mirror image, that one is turned first. Of two triangles that differ in their side only, as at
+// the wall between two blocks, it drops both if what is left encloses a volume; else it keeps one. Returns
+// true if it has: that surface was there with both sides. The mesh is welded.
 bool drop_twins(TriangleMesh& mesh);
 
 // Where more than two triangles meet at an edge, connects the pairs that go on most straight with their
