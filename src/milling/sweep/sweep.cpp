@@ -294,7 +294,7 @@ class CurvedSweep final : public field::Shape {
           line_(curved_line(move)),
           instants_(line_),
           upright_(UprightCurve::of(tool_, line_)),
-          box_(curved_box({tool_.radius_mm, tool_.length_mm + cap_rise_mm()}, line_, start_)) {}
+          box_(curved_box({tool_.radius_mm, tool_.length_mm}, line_, start_)) {}
 
     Box3 bounds_mm() const override { return box_; }
 
@@ -414,15 +414,6 @@ class CurvedSweep final : public field::Shape {
     // No less than the distance from the tip at any instant.
     double reach_of(Vec3 d) const { return length(d - line_.bounds.middle) + line_.bounds.spread; }
 
-    // The box holds the highest position of the cap all along the sweep. Returns how far it may be above the
-    // cap at any other instant.
-    double cap_rise_mm() const {
-        const TravelBounds& b = line_.bounds;
-        double rise = 0;
-        for (const Vec3 tip : {0.5 * line_.tip1, line_.tip1 + line_.tip2})
-            rise = std::max(rise, std::abs(dot(tip, line_.axis0)));
-        return 2 * rise + b.turn * (b.speed + tool_.length_mm + tool_.radius_mm);
-    }
     // Returns how far the point is outside the box, along the axis along which it is farthest.
     static double beyond(const Box3& box, Vec3 p) {
         const auto along = [](double low, double at, double high) { return std::max(low - at, at - high); };

@@ -48,9 +48,8 @@ StraightFrame::StraightFrame(Vec3 from, Vec3 travel, Vec3 axis) : start(from) {
 }
 
 Box3 StraightFrame::box(const ToolCylinder& tool) const {
-    Box3 box = tool_box({tool.radius_mm, tool.length_mm + std::max(line.rise, 0.0)}, start, frame.z);
-    box.include(
-        tool_box({tool.radius_mm, tool.length_mm + std::max(-line.rise, 0.0)}, start + travel(), frame.z));
+    Box3 box = tool_box(tool, start, frame.z);
+    box.include(tool_box(tool, start + travel(), frame.z));
     return box;
 }
 

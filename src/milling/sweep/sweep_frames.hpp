@@ -23,7 +23,6 @@ struct StraightFrame {
 
     StraightFrame(Vec3 from, Vec3 travel, Vec3 axis);
     Vec3 travel() const { return line.across * frame.x + line.rise * frame.z; }
-    // Up to the cap at its highest position all along the travel.
     Box3 box(const ToolCylinder& tool) const;
 };
 

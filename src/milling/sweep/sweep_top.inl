@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The flat top of the tool; sweep.cpp includes this file behind sweep_curved.inl.
 //
-// The other formulas leave the top out: they find the instant at which the tool comes nearest as if it went
-// on upwards, and end the volume at the highest place of the top. Where the point is below the top at that
-// instant, or farther from the tool than above its top, that is the distance. Elsewhere, as above a disc that
-// was there and has sunk, it is searched anew, for the tool with its top.
+// The other formulas leave the top out where a move leads along the axis: they find the instant at which the
+// tool comes nearest as if it went on upwards, some of them up to the highest place of its top. Where the
+// point is below the top at that instant, or farther from the tool than above its top, that is the distance.
+// Elsewhere, as above a disc that was there and has sunk, it is searched anew, for the tool with its top.
 
 // True if the top does not count at the instant of the least distance. `height`: of the point above the tip.
 inline bool is_below_top(const ToolProfile& tool, const Least<double>& least, double height) {
