@@ -56,6 +56,54 @@ TEST(EnergyBalance, holds_for_random_cutters_motions_and_stocks) {
     }
 }
 
+// What a plunge leaves behind it ends the cut, wherever in its last row that is. The torque is even all the
+// way: ktc A f / 2 pi.
+TEST(EnergyBalance, a_plunge_through_a_plate_cuts_as_long_as_the_plate_is_thick) {
+    const double ktc = 2000, diameter = 1, feed = 60, rpm = 6000;
+    for (const double depth : {1.05, 1.15, 1.3}) {
+        MillSetup s = block_setup({{-2, -2, -1}, {2, 2, 0}}, {.diameter_mm = diameter, .length_mm = 4}, 0.05);
+        s.coefficients = {ktc, 600, 300, 0, 0, 0};
+        add_cut(s, straight_cut({0, 0, 0.5}, {0, 0, -depth}, feed), rpm);
+        MillSession session(std::move(s), serial_for);
+        const double torque = ktc * math::kPi / 4 * diameter * diameter * feed / rpm / math::kTwoPi;
+        double seconds = 0;
+        session.run({[&](const milling::CutRow& row, const milling::RowForce& force) {
+                         if (row.chip_mm3 == 0) return;
+                         seconds += row.length_mm / (feed / 60);
+                         EXPECT_NEAR(force.peaks.mean_torque_nmm / torque, 1, 0.01) << depth;
+                     },
+                     {}});
+        EXPECT_NEAR(seconds / (1 / (feed / 60)), 1, 0.005) << depth;
+    }
+}
+
+// A disc that sinks as it goes along a wall takes the band between its faces, and a lens at each end of the
+// way: nothing of what is above it.
+TEST(EnergyBalance, a_disc_that_sinks_takes_nothing_above_it) {
+    const double radius = 20, thickness = 3, way = 40, width = 10;
+    const milling::Cutter disc{
+        .diameter_mm = 2 * radius, .length_mm = thickness, .stickout_mm = 80, .shank_mm = 10};
+    // Of the half plane of the wall, from its surface to the rim.
+    double chords = 0;
+    constexpr int kSteps = 10'000;
+    for (int n = 0; n < kSteps; ++n) {
+        const double y = radius - width + width * (n + 0.5) / kSteps;
+        chords += 2 * std::sqrt(radius * radius - y * y) * width / kSteps;
+    }
+    for (const double slope : {0.0, 0.05, 0.2, -0.2}) {
+        MillSetup s = block_setup({{-20, 10, -40}, {20, 50, 40}}, disc, 0.4);
+        s.coefficients = {2000, 600, 300, 0, 0, 0};
+        const double reach = 0.5 * way + radius + 5;
+        add_cut(s, straight_cut({-reach, 0, slope * reach}, {reach, 0, -slope * reach}, 600));
+        const Outcome out = mill(std::move(s));
+        const double expected = way * (thickness * width + std::abs(slope) * chords);
+        EXPECT_NEAR(out.totals.removed_mm3 / expected, 1, 0.01) << slope;
+        // It has no edges on its top, which would cut on the way up.
+        if (slope < 0) continue;
+        EXPECT_NEAR(*out.totals.energy_balance, 1, kShare) << slope;
+    }
+}
+
 // A long way down through air, and only the last of it in metal.
 TEST(EnergyBalance, a_plunge_that_only_just_touches_has_rows) {
     for (const double depth : {0.01, 0.2, 0.7}) {
