@@ -59,7 +59,7 @@ double brute_distance(const Distance& distance_at, const motion::Move& m, Vec3 p
             const double t = n * kGap + k * kStep, after = at(t + kStep);
             best = std::min(best, here);
             if (here <= before && here <= after) {
-                double lo = t - kStep, hi = t + kStep;
+                double lo = std::max(t - kStep, 0.0), hi = std::min(t + kStep, 1.0);
                 double a = hi - kGolden * (hi - lo), b = lo + kGolden * (hi - lo), at_a = at(a), at_b = at(b);
                 for (int i = 0; i < kSections; ++i) {
                     best = std::min({best, at_a, at_b});
