@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <iomanip>
 #include <numbers>
 #include <optional>
 #include <rapidcheck/gtest.h>
@@ -43,8 +44,15 @@ std::optional<Cutter> any_lines_and_arcs() {
             go(length, way_rad);
             continue;
         }
-        // An arc that goes on from the tangent, convex or hollow.
+        // An arc that goes on from the tangent, convex or hollow; some programs draw it as short lines.
         const double end_rad = std::clamp(way_rad + (what == 4 ? 1 : -1) * drawn(0.1, 1.5), 0.0, math::kPi);
+        if (*rc::gen::inRange(0, 4) == 0) {
+            const int lines = *rc::gen::inRange(2, 100);
+            for (int k = 0; k < lines; ++k)
+                go(length / lines, way_rad + (k + 0.5) / lines * (end_rad - way_rad));
+            way_rad = end_rad;
+            continue;
+        }
         c.profile.back().bulge = rounded(std::tan(0.25 * (end_rad - way_rad)), decimals + 1);
         go(length, 0.5 * (way_rad + end_rad));
         way_rad = end_rad;
@@ -58,6 +66,9 @@ void is_its_drawing(const Cutter& c) {
     // The surface of a profile may be off by this much where tangents are rounded, mm.
     constexpr double kOff = 5e-5;
     const ConvexZones zones(c);
+    for (const ProfileVertex& v : c.profile)
+        RC_LOG() << std::setprecision(12) << "vertex " << v.r_mm << " " << v.z_mm << " bulge " << v.bulge
+                 << "\n";
     for (int n = 0; n < 60; ++n) {
         const double r = *rc::gen::inRange(0, 5) == 0 ? 0 : drawn(0, 1.3) * zones.radius_mm();
         double z = drawn(-0.2, 1.2) * zones.length_mm();
@@ -96,6 +107,8 @@ TEST(ConvexZones, leave_nothing_where_they_meet) {
         {{{1, 0, 0}, {1.5, 2, -0.4}, {2.5, 3, 0}, {2.5, 6, 0}}, 0.5, 2, 0.97},
         // A disc whose side and back are nearly tangent.
         {{{3, 0, 0}, {3, 1, 0.1005}, {2.8, 2, 0}, {1, 2, 0}, {1, 6, 0}}, 1, 1, 1},
+        // A slit between two levels: an arc ends in one.
+        {{{2, 0, std::numbers::sqrt2 - 1}, {1, 1, 0}, {1.5, 1, 0}, {1.5, 5, 0}}, 0.5, 1, 0.5},
     };
     for (const auto& [profile, r, z, way] : cases) {
         Cutter c{.kind = CutterKind::profile, .length_mm = 0};
@@ -104,6 +117,26 @@ TEST(ConvexZones, leave_nothing_where_they_meet) {
         EXPECT_LT(zones.distance_mm({r, z}), -0.3 * way) << r << " " << z;
         EXPECT_GT(zones.distance_mm({0, 100}), 50) << r << " " << z;
     }
+}
+
+// A hollow corner of radius 0.1 mm that is drawn as 150 short lines stays hollow.
+TEST(ConvexZones, keep_a_hollow_that_is_drawn_as_short_lines) {
+    Cutter c{.kind = CutterKind::profile, .length_mm = 0};
+    c.profile.push_back({1, 0, 0});
+    for (int n = 0; n <= 150; ++n) {
+        const double angle = n * 0.5 / 150 * math::kPi;
+        c.profile.push_back({1.1 - 0.1 * std::cos(angle), 1 + 0.1 * std::sin(angle), 0});
+    }
+    c.profile.push_back({3, 1.1, 0});
+    c.profile.push_back({3, 5, 0});
+    const ConvexZones zones(finished(c));
+    for (const double angle : {0.1, 0.4, 0.8, 1.2, 1.5})
+        for (const double off : {0.001, 0.01, 0.09}) {
+            const double reach = 0.1 - off;
+            EXPECT_NEAR(zones.distance_mm({1.1 - reach * std::cos(angle), 1 + reach * std::sin(angle)}), off,
+                        5e-5)
+                << angle << " " << off;
+        }
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace {
 
 // A joint that turns by less (sine) counts as smooth.
 constexpr double kSmooth = 1e-9;
-// So does a concave joint where either side lies beyond the tangent of the other by less, mm: the numbers of
-// a profile are rounded.
+// Elements are in one run though one lies beyond the tangent of another by less, mm: the numbers of a profile
+// are rounded.
 constexpr double kBeyondMm = 2e-5;
 // A normal with a smaller part across the axis is that of a nearly level tangent.
 constexpr double kNearlyLevel = 0.2;
@@ -37,8 +37,8 @@ void take_nearer(double s, double& nearest) {
     if (s > kNearMm) nearest = std::min(nearest, s);
 }
 
-// Shortens `nearest` to the first point of the element on the ray. `touch_mm`: half of the chord of an arc up
-// to which the ray stays inside.
+// Shortens `nearest` to the first point of the element on the ray. `touch_mm`: half of the chord of a
+// concave arc up to which the ray stays inside.
 void meet(const Ray& ray, const ProfileElement& e, double touch_mm, double& nearest) {
     if (!e.is_arc()) {
         const double approach = dot(ray.way, e.from_normal);
@@ -52,7 +52,10 @@ void meet(const Ray& ray, const ProfileElement& e, double touch_mm, double& near
     }
     const PlanePoint from = ray.from - e.centre;
     const double middle = -dot(from, ray.way);
-    const double square = middle * middle - dot(from, from) + e.radius_mm * e.radius_mm;
+    double square = middle * middle - dot(from, from) + e.radius_mm * e.radius_mm;
+    // A ray that comes along the tangent of a convex arc leaves there, though it may miss the arc by
+    // rounding.
+    if (square < touch_mm * touch_mm && e.radius_mm > 0) square += 2 * kBeyondMm * e.radius_mm;
     if (square < touch_mm * touch_mm) return;
     for (const double s : {middle - std::sqrt(square), middle + std::sqrt(square)}) {
         const PlanePoint at = ray.from + s * ray.way;
@@ -114,20 +117,6 @@ bool ends_level(const ProfileElement& e, PlanePoint normal) {
     return is_concave_arc(e) && is_nearly_level(normal);
 }
 
-// How far a line or a convex arc lies beyond the tangent of its neighbour, where the joint turns inwards.
-double beyond_tangent_mm(const ProfileElement& e, double turn) {
-    const double of_chord = norm(e.to - e.from) * turn;
-    return e.is_arc() ? std::min(0.5 * e.radius_mm * turn * turn, of_chord) : of_chord;
-}
-
-// True if both are in one run.
-bool goes_on(const ProfileElement& before, const ProfileElement& after) {
-    if (is_concave_arc(before) || is_concave_arc(after)) return false;
-    const double turn = -turn_at(before, after);
-    return turn < kSmooth ||
-           std::max(beyond_tangent_mm(before, turn), beyond_tangent_mm(after, turn)) < kBeyondMm;
-}
-
 }  // namespace
 
 ConvexZones::Seen ConvexZones::Face::look(PlanePoint at) const {
@@ -167,8 +156,52 @@ struct ConvexZones::Run {
     }
 };
 
+ConvexZones::Face ConvexZones::face_of(const ProfileElement& e) {
+    return {e.from_normal, e.to_normal, dot(e.from_normal, e.from), e.centre, e.radius_mm};
+}
+
+// How far a line or a convex arc reaches out of a face. The distance to the face is convex along it: it is
+// largest at an end or, on an arc, in the direction in which the face looks.
+double ConvexZones::beyond_mm(const Face& face, const ProfileElement& e) {
+    double most = std::max(face.look(e.from).distance_mm, face.look(e.to).distance_mm);
+    if (!e.is_arc()) return most;
+    for (const PlanePoint way : {face.first, face.last, e.centre - face.centre}) {
+        const double size = norm(way);
+        if (size == 0 || cross(e.from_normal, way) < 0 || cross(way, e.to_normal) < 0) continue;
+        most = std::max(most, face.look(e.centre + (e.radius_mm / size) * way).distance_mm);
+    }
+    return most;
+}
+
+// Returns the joint at which elements are two runs; `run.first` if they are one.
+std::size_t ConvexZones::joint_between_runs(const std::vector<ProfileElement>& elements, const Run& run) {
+    std::size_t sharpest = run.first;
+    double turn = -kSmooth;
+    bool are_one = true;
+    for (std::size_t n = run.first + 1; n < run.end; ++n) {
+        if (is_concave_arc(elements[n - 1]) || is_concave_arc(elements[n])) return n;
+        const double here = turn_at(elements[n - 1], elements[n]);
+        if (here < turn) sharpest = n, turn = here;
+        for (std::size_t k = run.first; k < n && are_one; ++k)
+            are_one = beyond_mm(face_of(elements[k]), elements[n]) < kBeyondMm &&
+                      beyond_mm(face_of(elements[n]), elements[k]) < kBeyondMm;
+    }
+    return are_one ? run.first : sharpest;
+}
+
+void ConvexZones::split_into_runs(const std::vector<ProfileElement>& elements, const Run& run,
+                                  std::vector<Run>& runs) {
+    const std::size_t joint = joint_between_runs(elements, run);
+    if (joint == run.first) {
+        runs.push_back(run);
+        return;
+    }
+    split_into_runs(elements, {run.first, joint}, runs);
+    split_into_runs(elements, {joint, run.end}, runs);
+}
+
 void ConvexZones::add_face(const ProfileElement& e) {
-    faces_.push_back({e.from_normal, e.to_normal, dot(e.from_normal, e.from), e.centre, e.radius_mm});
+    faces_.push_back(face_of(e));
 }
 
 // Keeps a zone below (up = 1) or above (up = -1) a height.
@@ -240,12 +273,25 @@ void ConvexZones::add_column(const std::vector<ProfileElement>& elements, std::s
     zones_.push_back({first, faces_.size(), bend_per_mm_of(own)});
 }
 
+// Adds a cylinder through a slit between two levels, half way to where the cutter ends below and above.
+void ConvexZones::add_core(const std::vector<ProfileElement>& elements, std::size_t number) {
+    const ProfileElement &below = elements[number], &above = elements[number + 1];
+    const std::size_t first = faces_.size();
+    add_level(-1, half_way(elements, below.to, {0, -1}, below)->z);
+    add_level(1, half_way(elements, above.from, {0, 1}, above)->z);
+    add_side(below.to.r);
+    zones_.push_back({first, faces_.size()});
+}
+
 // Two zones that end at one height leave a surface of no thickness there, and two that overlap little a thin
 // one. A further zone overlaps both where element `number` ends.
 void ConvexZones::join(const std::vector<ProfileElement>& elements, std::size_t number) {
     const ProfileElement &own = elements[number], &next = elements[number + 1];
     const double turn = turn_at(own, next);
-    if (turn < kLittle && is_nearly_level(own.to_normal) && own.to_normal.z < 0) {
+    const bool both_level = is_nearly_level(own.to_normal) && is_nearly_level(next.from_normal);
+    if (both_level && own.to_normal.z > 0 && next.from_normal.z < 0) {
+        add_core(elements, number);
+    } else if (turn < kLittle && is_nearly_level(own.to_normal) && own.to_normal.z < 0) {
         add_column(elements, number, 1);
     } else if (turn < kLittle && is_nearly_level(next.from_normal) && next.from_normal.z > 0) {
         add_column(elements, number + 1, -1);
@@ -266,10 +312,7 @@ ConvexZones::ConvexZones(const Cutter& cutter) : length_mm_(cutter.length_mm) {
     const PlanePoint top = elements.back().to, up{0, 1};
     elements.push_back({top, {0, top.z}, up, up, {}, 0});
     std::vector<Run> runs;
-    for (std::size_t n = 0; n < elements.size(); ++n) {
-        if (n == 0 || !goes_on(elements[n - 1], elements[n])) runs.push_back({n, n});
-        ++runs.back().end;
-    }
+    split_into_runs(elements, {0, elements.size()}, runs);
     for (const Run& run : runs) {
         add_run(elements, run);
         if (run.end < elements.size()) join(elements, run.end - 1);

@@ -65,10 +65,16 @@ class ConvexZones {
         double bend_per_mm = 0;
     };
     struct Run;
+    static Face face_of(const ProfileElement& element);
+    static double beyond_mm(const Face& face, const ProfileElement& element);
+    static std::size_t joint_between_runs(const std::vector<ProfileElement>& elements, const Run& run);
+    static void split_into_runs(const std::vector<ProfileElement>& elements, const Run& run,
+                                std::vector<Run>& runs);
     void add_run(const std::vector<ProfileElement>& elements, const Run& run);
     void join(const std::vector<ProfileElement>& elements, std::size_t number);
     void add_bridge(const ProfileElement& below, const ProfileElement& above);
     void add_column(const std::vector<ProfileElement>& elements, std::size_t number, double up);
+    void add_core(const std::vector<ProfileElement>& elements, std::size_t number);
     double add_lower_end(const std::vector<ProfileElement>& elements, std::size_t number);
     double add_upper_end(const std::vector<ProfileElement>& elements, std::size_t number);
     double add_end(double up, const std::optional<PlanePoint>& end);
