@@ -64,6 +64,8 @@ Result<void> check_room(const Box3& box_mm) {
 Solid box_solid(const Box3& box_mm) {
     Solid solid;
     solid.volume_mm3 = box_mm.volume();
+    const Vec3 edge = box_mm.size();
+    solid.thickness_mm = 1 / (1 / edge.x + 1 / edge.y + 1 / edge.z);
     solid.box_mm = box_mm;
     Hash hash;
     hash.add(box_mm.min);
@@ -83,6 +85,7 @@ Result<Solid> mesh_solid(TriangleMesh mesh, const std::string& file) {
     solid.mesh = **shape;
     const TriangleMesh& kept = solid.mesh->mesh();
     solid.volume_mm3 = solid.mesh->volume_mm3();
+    solid.thickness_mm = 2 * solid.volume_mm3 / area_mm2(kept);
     Hash hash;
     for (const auto& p : kept.positions) {
         for (const float v : p) hash.add(v);

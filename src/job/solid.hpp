@@ -20,6 +20,7 @@ struct Solid {
     Box3 box_mm;                           // empty for a mesh
     std::optional<field::MeshShape> mesh;  // absent for a box
     double volume_mm3 = 0;
+    double thickness_mm = 0;  // mean: twice the volume over the area of the surface; of a sheet its thickness
     std::uint64_t hash = 0;  // of the box or of the mesh
 };
 

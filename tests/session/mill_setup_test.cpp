@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a setup refuses before it takes memory.
+// What a setup refuses before it takes memory, and the grid that it chooses.
 #include "session/cut/mill_setup.hpp"
 
 #include <gtest/gtest.h>
@@ -62,6 +62,42 @@ TEST(MillSetup, refuses_moves_that_become_too_many_pieces_at_their_line) {
     const job::LoadedJob first = loaded({near, tilting});
     second.earlier.push_back({first.job, first.program, {}});
     EXPECT_EQ(fault(second, little), message);
+}
+
+// Half of a sheet's thickness, then all of it, along its length: the corners of the slot and the sheet's own
+// faces share cells on a coarse grid.
+TEST(MillSetup, chooses_a_grid_for_thin_sheets) {
+    for (const double thickness : {0.1, 0.2, 0.5, 1.0}) {
+        const double wide = 6, longest = 100 + 100 * thickness;
+        job::LoadedJob job = loaded({to({-5, 20, 5}), to({-5, 20, -0.5 * thickness}),
+                                     to({longest + 5, 20, -0.5 * thickness}), to({longest + 5, 40, 5}),
+                                     to({longest + 5, 40, -2}), to({-5, 40, -2})});
+        for (std::size_t n = 1; n < job.program.moves.size(); ++n)
+            job.program.moves[n].start = job.program.moves[n - 1].end;
+        job.program.moves[0].start = job.program.moves[0].end;
+        job.program.moves[0].kind = motion::MoveKind::rapid;
+        job.blank = job::box_solid({{0, 0, -thickness}, {longest, 60, 0}});
+        Warnings warnings;
+        auto setup = prepare_mill(job, {}, warnings);
+        ASSERT_TRUE(setup) << setup.error().text();
+        MillSession session(*std::move(setup), serial_for);
+        session.run({});
+        const double exact = 1.5 * longest * wide * thickness;
+        EXPECT_NEAR(session.totals().removed_mm3 / exact, 1, 0.006) << thickness;
+        EXPECT_TRUE(warnings.empty()) << thickness << ": " << warnings.front().text;
+    }
+}
+
+TEST(MillSetup, warns_of_a_grid_that_is_too_coarse_for_a_sheet) {
+    job::LoadedJob job = loaded({to({10, 0, 0})});
+    job.blank = job::box_solid({{0, 0, -0.2}, {100, 100, 0}});
+    MillOptions coarse;
+    coarse.cell_mm = 0.25;
+    Warnings warnings;
+    ASSERT_TRUE(prepare_mill(job, coarse, warnings));
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].text.find("a stock that is 0.2 mm thick"), std::string::npos) << warnings[0].text;
+    EXPECT_NE(warnings[0].text.find("--resolution 0.066"), std::string::npos) << warnings[0].text;
 }
 
 }  // namespace

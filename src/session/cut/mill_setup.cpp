@@ -78,7 +78,15 @@ Result<void> check_pieces(const motion::Program& program, const MillOptions& opt
     return {};
 }
 
-void warn_where_the_grid_is_coarse(const MillSetup& setup, const std::string& source, Warnings& warnings) {
+void warn_where_the_grid_is_coarse(const MillSetup& setup, double thickness_mm, const std::string& source,
+                                   Warnings& warnings) {
+    if (thickness_mm < setup.cell_mm) {
+        warnings.push_back({source, 0,
+                            "the grid is coarse for a stock that is " + format_digits(thickness_mm, 2) +
+                                " mm thick: less than one cell; what is removed and the force may be off by "
+                                "several per cent, try --resolution " +
+                                format_digits(thickness_mm / 3, 2)});
+    }
     for (const milling::Cutter& cutter : setup.cutters) {
         if (cutter.diameter_mm < 4 * setup.cell_mm) {
             warnings.push_back({source, 0,
@@ -134,10 +142,10 @@ void warn_of_passes_below_the_grid(const MillSetup& setup, const std::string& so
 
 }  // namespace
 
-double default_cell_mm(const job::Job& job, const Box3& blank_mm) {
+double default_cell_mm(const job::LoadedJob& loaded, const Box3& blank_mm) {
     const Vec3 size = blank_mm.size();
-    double cell = std::max({size.x, size.y, size.z}) / 400;
-    for (const milling::Cutter& cutter : job.cutters) cell = std::min(cell, cutter.radius_mm() / 4);
+    double cell = std::min(std::max({size.x, size.y, size.z}) / 400, loaded.blank.thickness_mm / 3);
+    for (const milling::Cutter& cutter : loaded.job.cutters) cell = std::min(cell, cutter.radius_mm() / 4);
     return std::clamp(cell, 0.02, 1.0);
 }
 
@@ -239,8 +247,8 @@ Result<MillSetup> prepare_mill(const job::LoadedJob& loaded, const MillOptions& 
     MillSetup setup = *std::move(prepared);
     if (auto done = add_modes(loaded.job, setup, warnings); !done) return std::unexpected(done.error());
     add_places_in_stock(setup, stock->blank->bounds_mm());
-    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(loaded.job, stock->blank->bounds_mm()));
-    warn_where_the_grid_is_coarse(setup, loaded.job.file, warnings);
+    setup.cell_mm = options.cell_mm.value_or(default_cell_mm(loaded, stock->blank->bounds_mm()));
+    warn_where_the_grid_is_coarse(setup, loaded.blank.thickness_mm, loaded.job.file, warnings);
     warn_of_points(setup, loaded.job.file, warnings);
     warn_of_passes_below_the_grid(setup, loaded.job.file, warnings);
     if (loaded.part) warn_of_part_outside(loaded.part->mesh, *stock->blank, loaded.job.file, warnings);

@@ -21,8 +21,8 @@ struct MillOptions {
 };
 
 // Default grid spacing: 1/400 of the longest edge of the blank, but at most 1/4 of the smallest cutter
-// radius, within 0.02 mm to 1 mm.
-double default_cell_mm(const job::Job& job, const Box3& blank_mm);
+// radius and 1/3 of the thickness of the blank, within 0.02 mm to 1 mm.
+double default_cell_mm(const job::LoadedJob& loaded, const Box3& blank_mm);
 
 // The material of the job: from the library, or with coefficients and spread of the job file.
 Result<milling::WorkpieceMaterial> job_material(const job::Job& job);
