@@ -21,7 +21,7 @@ struct Solid {
     std::optional<field::MeshShape> mesh;  // absent for a box
     double volume_mm3 = 0;
     double thickness_mm = 0;  // mean: twice the volume over the area of the surface; of a sheet its thickness
-    std::uint64_t hash = 0;  // of the box or of the mesh
+    std::uint64_t hash = 0;   // of the box or of the mesh
 };
 
 // Refuse coordinates and edges of a box that are out of range (base/limits.hpp). The error has no place.

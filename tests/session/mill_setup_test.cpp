@@ -69,9 +69,9 @@ TEST(MillSetup, refuses_moves_that_become_too_many_pieces_at_their_line) {
 TEST(MillSetup, chooses_a_grid_for_thin_sheets) {
     for (const double thickness : {0.1, 0.2, 0.5, 1.0}) {
         const double wide = 6, longest = 100 + 100 * thickness;
-        job::LoadedJob job = loaded({to({-5, 20, 5}), to({-5, 20, -0.5 * thickness}),
-                                     to({longest + 5, 20, -0.5 * thickness}), to({longest + 5, 40, 5}),
-                                     to({longest + 5, 40, -2}), to({-5, 40, -2})});
+        job::LoadedJob job =
+            loaded({to({-5, 20, 5}), to({-5, 20, -0.5 * thickness}), to({longest + 5, 20, -0.5 * thickness}),
+                    to({longest + 5, 40, 5}), to({longest + 5, 40, -2}), to({-5, 40, -2})});
         for (std::size_t n = 1; n < job.program.moves.size(); ++n)
             job.program.moves[n].start = job.program.moves[n - 1].end;
         job.program.moves[0].start = job.program.moves[0].end;

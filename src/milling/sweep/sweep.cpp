@@ -153,7 +153,12 @@ SweptNormal swept_normal(const ToolProfile& tool, const UprightLine& line, Vec3 
 // the start.
 field::Shape::Slope closed_slope(const ToolProfile& tool, const CurvedLine& line, Vec3 d) {
     const auto nearest = by_kind(tool.kind, [&]<CutterKind kind>() {
-        return closed_nearest<kind>(Profile<double>(tool), line, d, kNever);
+        const Profile<double> p(tool);
+        const auto at = [&](double t) { return closed_instant<kind>(p, line, d, t); };
+        const Least<double> found = closed_nearest<kind>(p, line, d, kNever);
+        // Every tool has the edge of a flat cutter at its top.
+        const double t = sharpened<CutterKind::flat>(p.R, at, found.t);
+        return Least<double>{std::min(found.distance, at(t).distance), t};
     });
     const SweptNormal n = closed_normal(tool, view(line, d, nearest.t), nearest.t);
     return {nearest.distance, n.normal, n.way_per_mm};
@@ -369,7 +374,8 @@ class CurvedSweep final : public field::Shape {
         if (!is_below_top(tool_, least, height_at(d, least.t))) return closed_slope(tool_, line_, d);
         return by_kind(tool_.kind, [&]<CutterKind kind>() -> Slope {
             const Profile<double> p(tool_);
-            const double t = sharpened<kind>(p, line_, d, least.t);
+            const auto at = [&](double t) { return curved_instant<kind>(p, line_, d, t); };
+            const double t = sharpened<kind>(p.R, at, least.t);
             const ToolView v = view(line_, d, t);
             const SweptNormal n = swept_normal(tool_, v, t);
             const double distance = profile_distance<kind>(p, v.rho * v.rho, v.z);

@@ -259,9 +259,9 @@ Least<double> curved_nearest(const Profile<double>& p, const CurvedLine& c, cons
 // Returns the instant of the least distance from the one that a search has found. Near its bottom the
 // distance hardly tells instants apart, so that the search may end some um of the way beside it, where the
 // normal is off by a thousandth. The slope tells: one step towards where it is zero, and one of the secant.
-template <CutterKind kind>
-double sharpened(const Profile<double>& p, const CurvedLine& c, Vec3 point, double t) {
-    const auto at = [&](double when) { return curved_instant<kind>(p, c, point, when); };
+// `at` gives the instants of a tool of this kind and radius.
+template <CutterKind kind, class F>
+double sharpened(double radius_mm, const F& at, double t) {
     const Instant<double> found = at(t);
     const bool is_end = (t <= 0 && found.slope >= 0) || (t >= 1 && found.slope <= 0);
     if (is_end || found.slope == 0) return t;
@@ -280,7 +280,7 @@ double sharpened(const Profile<double>& p, const CurvedLine& c, Vec3 point, doub
         }
     }
     // Of the slope beside a round side, on a path without bend.
-    const double growth = found.gap > 0 ? found.way_squared / (found.distance + p.R) : 0;
+    const double growth = found.gap > 0 ? found.way_squared / (found.distance + radius_mm) : 0;
     const double size = growth > 0 ? std::min(std::abs(found.slope) / growth, most) : most;
     const double next = std::clamp(found.slope < 0 ? t + size : t - size, 0.0, 1.0);
     const Instant<double> there = at(next);

@@ -43,6 +43,9 @@ StraightFrame::StraightFrame(Vec3 from, Vec3 travel, Vec3 axis) : start(from) {
     if (length(across) < kRounding * std::abs(rise)) across = {};
     frame.z = axis;
     frame.x = normalized(across, any_perpendicular(axis));
+    // Beside a long travel along the axis the rounding of the part across it is no longer small.
+    if (const double along = dot(frame.x, axis); std::abs(along) > 1e-10)
+        frame.x = normalized(frame.x - along * axis, any_perpendicular(axis));
     frame.y = cross(frame.z, frame.x);
     line = StraightLine(length(across), rise);
 }

@@ -47,8 +47,11 @@ TRIBO_LANES F8 upright_distance(const Profile<F8>& p, const UprightLine& line, F
             rate.growth += select(below < zero, rise * rise, zero);
         }
         const F8 next = unit_clamp(t - rate.value / rate.growth), step = next - t;
+        I8 goes_on = step * step * rate.growth > still;
+        // Where the ball's centre passes the height of the point, another growth begins.
+        if constexpr (kind == CutterKind::ball) goes_on |= (lowest(t) < zero) ^ (lowest(next) < zero);
         t = select(moving, next, t);
-        moving = both(moving, step * step * rate.growth > still);
+        moving = both(moving, goes_on);
     }
     sure &= ~moving;
     const F8 cap = z - max(rise, zero) - p.L;
