@@ -157,8 +157,7 @@ field::Shape::Slope closed_slope(const ToolProfile& tool, const CurvedLine& line
         const auto at = [&](double t) { return closed_instant<kind>(p, line, d, t); };
         const Least<double> found = closed_nearest<kind>(p, line, d, kNever);
         // Every tool has the edge of a flat cutter at its top.
-        const double t = sharpened<CutterKind::flat>(p.R, at, found.t);
-        return Least<double>{std::min(found.distance, at(t).distance), t};
+        return Least<double>{found.distance, sharpened<CutterKind::flat>(p.R, at, found.t)};
     });
     const SweptNormal n = closed_normal(tool, view(line, d, nearest.t), nearest.t);
     return {nearest.distance, n.normal, n.way_per_mm};
