@@ -4,54 +4,33 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <vector>
 
 #include "base/math.hpp"
+#include "dynamics/eigenvalue/chatter_line.hpp"
 #include "dynamics/eigenvalue/largest_eigenvalue.hpp"
 #include "dynamics/eigenvalue/period_step.hpp"
 
 namespace tribo::dynamics {
 namespace {
 
-using Complex = std::complex<double>;
-
 // Not std::abs: it differs between systems.
-double size(Complex v) {
+double size(std::complex<double> v) {
     return std::sqrt(v.real() * v.real() + v.imag() * v.imag());
-}
-
-// The line that the modes answer most, of those that a multiplier at this angle has.
-double chatter_line(std::span<const Mode> modes, double angle_rad, double period_s) {
-    double fastest = 0;
-    for (const Mode& mode : modes) fastest = std::max(fastest, mode.frequency_hz);
-    double best = 0, most = -1;
-    const int lines = static_cast<int>(std::ceil(2 * fastest * period_s)) + 1;
-    for (int n = 0; n <= lines; ++n) {
-        for (const double sign : {-1.0, 1.0}) {
-            const double hz = (sign * angle_rad / math::kTwoPi + n) / period_s;
-            if (hz < 0) continue;
-            double answer = 0;
-            for (const Mode& mode : modes) answer = std::max(answer, size(receptance(mode, hz)));
-            if (answer > most) {
-                most = answer;
-                best = hz;
-            }
-        }
-    }
-    return best;
 }
 
 }  // namespace
 
 Stability stability(std::span<const Mode> modes, const CutFeedback& cut) {
     const PeriodStep step(modes, cut);
-    const Complex largest = largest_eigenvalue(
+    const Eigenpair largest = largest_eigenvalue(
         step.size(), step.states(), [&](const double* from, double* to) { step.advance(from, to); });
+    double fastest_hz = 0;
+    for (const Mode& mode : modes) fastest_hz = std::max(fastest_hz, mode.frequency_hz);
     Stability s;
-    s.multiplier = size(largest);
-    s.angle_rad = std::abs(math::atan2(largest.imag(), largest.real()));
+    s.multiplier = size(largest.value);
+    s.angle_rad = std::abs(math::atan2(largest.value.imag(), largest.value.real()));
     s.period_s = cut.period_s();
-    s.chatter_hz = chatter_line(modes, s.angle_rad, s.period_s);
+    s.chatter_hz = chatter_line_hz(step, largest, s.period_s, fastest_hz);
     constexpr double kTurned = 1e-6;  // rad
     if (s.multiplier > 1)
         s.kind =

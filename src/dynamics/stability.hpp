@@ -16,7 +16,7 @@ enum class ChatterKind { stable, quasi_periodic, period_doubling };
 struct Stability {
     double multiplier = 0;  // spectral radius over the period: a vibration grows by it; > 1: chatter
     double angle_rad = 0;   // of that multiplier, 0 ... pi
-    double chatter_hz = 0;  // of the lines (+-angle / 2 pi + n) / period the one that the modes answer most
+    double chatter_hz = 0;  // of the lines (+-angle / 2 pi + n) / period the one with most of the motion
     double period_s = 0;
     ChatterKind kind = ChatterKind::stable;
 };

@@ -12,6 +12,7 @@
 #include "dynamics/benchmark_slot.hpp"
 #include "dynamics/chebyshev_collocation.hpp"
 #include "dynamics/semi_discretisation.hpp"
+#include "dynamics/vibration.hpp"
 
 namespace tribo::dynamics {
 namespace {
@@ -204,6 +205,71 @@ TEST(Stability, of_anything_does_not_depend_on_where_the_cutter_starts) {
             EXPECT_NEAR(found, first, 1e-5 * std::max(1.0, first)) << draw;
             std::rotate(pitch.begin(), pitch.begin() + 1, pitch.end());
         }
+    }
+}
+
+// Of the lines that a multiplier may have, the strongest one in the second half of a vibration that was
+// simulated in time.
+double strongest_line(std::span<const Vec3> vibration, double rate_hz, const Stability& s) {
+    const std::size_t half = vibration.size() / 2;
+    double best = 0, most = 0;
+    for (int n = -40; n <= 40; ++n) {
+        const double hz = std::abs(s.angle_rad / math::kTwoPi + n) / s.period_s;
+        std::complex<double> x, y, z;
+        for (std::size_t k = half; k < vibration.size(); ++k) {
+            const double turn = math::kTwoPi * static_cast<double>(k - half) / static_cast<double>(half);
+            const std::complex<double> wave =
+                (1 - std::cos(turn)) * std::polar(1.0, -math::kTwoPi * hz * static_cast<double>(k) / rate_hz);
+            x += vibration[k].x * wave;
+            y += vibration[k].y * wave;
+            z += vibration[k].z * wave;
+        }
+        const double power = std::norm(x) + std::norm(y) + std::norm(z);
+        if (power <= most) continue;
+        most = power;
+        best = hz;
+    }
+    return best;
+}
+
+TEST(Stability, names_the_strongest_line_of_a_simulated_vibration) {
+    constexpr double kRateHz = 48'000;
+    const std::array modes{Mode{{1, 0.3, 0}, 922, 0.02, 5000}, Mode{{-0.2, 1, 0.1}, 1100, 0.03, 4000}};
+    const milling::CuttingCoefficients k{600, 200, 150, 0, 0, 0};
+    struct Case {
+        std::vector<double> pitch_deg;
+        double rpm, depth_mm;
+    };
+    for (const Case& c :
+         {Case{{}, 7000, 0.97}, Case{{}, 3200, 1.7}, Case{{119.999, 120, 120.001}, 7000, 0.97},
+          Case{{119, 120, 121}, 7000, 0.97}, Case{{119, 120, 121}, 7000, 0.8},
+          Case{{115, 120, 125}, 7000, 1.2}, Case{{115, 120, 125}, 5000, 1.2}, Case{{175, 185}, 7000, 2.5},
+          Case{{170, 190}, 5000, 2.5}}) {
+        const milling::Cutter cutter{.diameter_mm = 12,
+                                     .flutes = c.pitch_deg.size() == 2 ? 2 : 3,
+                                     .helix_deg = 30,
+                                     .pitch_deg = c.pitch_deg};
+        const milling::EngagementBand band{0, c.depth_mm, 20 * math::kRadPerDeg, 110 * math::kRadPerDeg};
+        const Stability s = stability(modes, CutFeedback(cutter, k, {&band, 1}, c.rpm));
+        // Two simulations, of which one is pushed a little: their difference has no forced vibration.
+        Vibration free(modes, cutter, k, kRateHz), pushed(modes, cutter, k, kRateHz);
+        std::vector<Vec3> vibration;
+        for (Vibration* v : {&free, &pushed}) v->engage({&band, 1}, {.across_mm = 0.1}, c.rpm);
+        const auto turns = [&](double count) { return static_cast<int>(count * 60 * kRateHz / c.rpm); };
+        for (int n = 0; n < turns(1.5); ++n) {
+            free.step();
+            pushed.step();
+        }
+        pushed.scale_modes(1 + 1e-9);
+        const int count = turns(60);
+        for (int n = 0; n < count; ++n) {
+            // Without its growth.
+            const double size = std::pow(s.multiplier, -n / (kRateHz * s.period_s));
+            const Vec3 from = free.step().displacement_mm;
+            vibration.push_back(size * (pushed.step().displacement_mm - from));
+        }
+        EXPECT_NEAR(s.chatter_hz, strongest_line(vibration, kRateHz, s), 1e-6)
+            << c.pitch_deg.size() << " " << c.rpm << " " << c.depth_mm << " " << s.multiplier;
     }
 }
 

@@ -37,9 +37,9 @@ double squared(Complex v) {
     return v.real() * v.real() + v.imag() * v.imag();
 }
 
-// The share of the last basis vector in the eigenvector of a Hessenberg matrix whose lower diagonal has no
-// zero: with 1 as its last number the rows give the others from below (Hyman).
-double last_share(const std::vector<double>& h, std::size_t count, Complex value) {
+// The eigenvector, of length 1, of a Hessenberg matrix whose lower diagonal has no zero: with 1 as its last
+// number the rows give the others from below (Hyman).
+std::vector<Complex> eigenvector(const std::vector<double>& h, std::size_t count, Complex value) {
     std::vector<Complex> v(count);
     v[count - 1] = 1;
     double sum_of_squares = 1;
@@ -49,13 +49,14 @@ double last_share(const std::vector<double>& h, std::size_t count, Complex value
         v[row - 1] = sum / h[row * count + row - 1];
         sum_of_squares += squared(v[row - 1]);
     }
-    return 1 / std::sqrt(sum_of_squares);
+    for (Complex& x : v) x /= std::sqrt(sum_of_squares);
+    return v;
 }
 
 }  // namespace
 
-Complex largest_eigenvalue(std::size_t size, std::size_t inputs,
-                           const std::function<void(const double* from, double* to)>& map) {
+Eigenpair largest_eigenvalue(std::size_t size, std::size_t inputs,
+                             const std::function<void(const double* from, double* to)>& map) {
     constexpr double kResidual = 1e-10;
     constexpr int kImages = 6;         // until the first vector of the space: small eigenvalues die out
     constexpr std::size_t kFirst = 7;  // vectors of the space, at which it is looked at first
@@ -65,7 +66,7 @@ Complex largest_eigenvalue(std::size_t size, std::size_t inputs,
         map(start.data(), image.data());
         std::swap(start, image);
         const double norm = length(start.data(), size);
-        if (norm == 0) return 0;
+        if (norm == 0) return {};
         for (double& x : start) x /= norm;
     }
     std::vector<double> space(start);  // orthonormal vectors of `size` numbers
@@ -102,8 +103,14 @@ Complex largest_eigenvalue(std::size_t size, std::size_t inputs,
             Complex largest = 0;
             for (const Complex& value : hessenberg_eigenvalues(h, count))
                 if (squared(value) > squared(largest)) largest = value;
-            if (whole || left * last_share(h, count, largest) <= kResidual * std::sqrt(squared(largest)))
-                return largest;
+            const std::vector<Complex> shares = eigenvector(h, count, largest);
+            const double share = std::sqrt(squared(shares.back()));
+            if (whole || left * share <= kResidual * std::sqrt(squared(largest))) {
+                Eigenpair found{largest, std::vector<Complex>(size)};
+                for (std::size_t k = 0; k < count; ++k)
+                    for (std::size_t n = 0; n < size; ++n) found.vector[n] += space[k * size + n] * shares[k];
+                return found;
+            }
             next += next / 2;
         }
         for (const double x : image) space.push_back(x / left);

@@ -52,6 +52,20 @@ double Oscillators::fastest(double spring_n_per_mm) const {
     return most;
 }
 
+std::array<std::complex<double>, 9> Oscillators::compliance(std::complex<double> s_per_s) const {
+    std::array<std::complex<double>, 9> sum{};
+    const std::size_t d = dimensions();
+    for (const Oscillator& o : oscillators_) {
+        const std::complex<double> r = s_per_s / o.w, yields = 1.0 + 2 * o.damping * r + r * r;
+        // Not 1 / yields: a division of complex numbers differs between systems.
+        const double size2 = yields.real() * yields.real() + yields.imag() * yields.imag();
+        const std::complex<double> own = std::conj(yields) / (o.stiffness * size2);
+        for (std::size_t a = 0; a < d; ++a)
+            for (std::size_t b = 0; b < d; ++b) sum[a * d + b] += own * (o.along[a] * o.along[b]);
+    }
+    return sum;
+}
+
 Oscillators::Answer Oscillators::without_force(double lasts_s) const {
     Answer a;
     for (const Oscillator& o : oscillators_) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,8 @@ class Oscillators {
     std::array<double, 9> reduced(const Matrix3& stiffness) const;
     // The highest natural frequency with a spring beside each, rad/s.
     double fastest(double spring_n_per_mm) const;
+    // The displacement over a force e^(s t), dimensions() x dimensions() of the nine, mm/N.
+    std::array<std::complex<double>, 9> compliance(std::complex<double> s_per_s) const;
 
     // What happens in a piece of time; n = points x dimensions().
     struct Answer {

@@ -79,6 +79,7 @@ void PeriodStep::add_matrix(Piece& piece) {
         }
     }
     piece.links = links_.size() - piece.link;
+    springs_.insert(springs_.end(), spring.begin(), spring.end());
     // u = free y + moved (S u - h) with the delayed forces h.
     std::vector<double> system(n * width);
     for (std::size_t r = 0; r < n; ++r) {
@@ -154,6 +155,51 @@ void PeriodStep::delayed_forces(const Piece& piece, const double* from, const do
             for (std::size_t a = 0; a < d; ++a) forces[link.point * d + a] += link.stiffness[a * d + b] * u;
         }
     }
+}
+
+std::vector<PeriodStep::Impulse> PeriodStep::impulses(std::span<const std::complex<double>> vibration,
+                                                      std::complex<double> multiplier) const {
+    const std::size_t d = oscillators_.dimensions();
+    // The period before had a multiplier-th of it. Not now / multiplier: it differs between systems.
+    const double size2 = multiplier.real() * multiplier.real() + multiplier.imag() * multiplier.imag();
+    const std::complex<double> back = std::conj(multiplier) / size2;
+    std::array<std::vector<double>, 2> now, before;  // real and imaginary parts
+    for (std::size_t n = 0; n < displacements_; ++n) {
+        const std::complex<double> u = vibration[n], last = u * back;
+        now[0].push_back(u.real());
+        now[1].push_back(u.imag());
+        before[0].push_back(last.real());
+        before[1].push_back(last.imag());
+    }
+    std::vector<Impulse> found;
+    std::array<std::vector<double>, 2> delayed;
+    for (std::vector<double>& forces : delayed) forces.resize(most_points_ * d);
+    for (const Piece& piece : pieces_) {
+        if (!piece.cuts) continue;
+        if (!one_delay_) {
+            for (const std::size_t part : {0U, 1U})
+                delayed_forces(piece, before[part].data(), now[part].data(), delayed[part].data());
+        }
+        for (std::size_t l = 0; l < piece.points->x.size(); ++l) {
+            const std::size_t at = piece.first + l * d;
+            const double* spring = &springs_[at * d];
+            Impulse impulse{piece.from_s + piece.points->x[l] * piece.lasts_s, {}};
+            for (std::size_t a = 0; a < d; ++a) {
+                std::array<double, 2> force{};
+                for (const std::size_t part : {0U, 1U}) {
+                    if (!one_delay_) force[part] = -delayed[part][l * d + a];
+                    for (std::size_t b = 0; b < d; ++b) {
+                        const double chip = now[part][at + b] - (one_delay_ ? before[part][at + b] : 0);
+                        force[part] += spring[a * d + b] * chip;
+                    }
+                }
+                const double lasts_s = piece.points->weight[l] * piece.lasts_s;
+                impulse.ns[a] = {lasts_s * force[0], lasts_s * force[1]};
+            }
+            found.push_back(impulse);
+        }
+    }
+    return found;
 }
 
 void PeriodStep::advance(const double* from, double* to) const {

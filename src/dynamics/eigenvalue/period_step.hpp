@@ -2,6 +2,8 @@
 // The linear step that takes a small vibration from one period of a cut to the next.
 #pragma once
 
+#include <array>
+#include <complex>
 #include <span>
 #include <vector>
 
@@ -27,6 +29,17 @@ class PeriodStep {
     std::size_t states() const { return oscillators_.states(); }
     // One period on. Two arrays of size() numbers that do not overlap.
     void advance(const double* from, double* to) const;
+
+    // The force of the cut over a short time.
+    struct Impulse {
+        double t_s;                              // in the period
+        std::array<std::complex<double>, 3> ns;  // in the displacements of oscillators()
+    };
+    // At the Gauss points, of a vibration that a period multiplies by `multiplier`: an eigenvector of
+    // advance().
+    std::vector<Impulse> impulses(std::span<const std::complex<double>> vibration,
+                                  std::complex<double> multiplier) const;
+    const Oscillators& oscillators() const { return oscillators_; }
 
   private:
     struct Piece {
@@ -58,6 +71,7 @@ class PeriodStep {
     std::vector<Piece> pieces_;
     std::vector<Link> links_;
     std::vector<double> matrices_;
+    std::vector<double> springs_;  // force over displacement at each point, by pieces
     std::size_t displacements_ = 0, most_points_ = 0;
 };
 

@@ -66,7 +66,7 @@ describe.runIf(hasBrowser && existsSync(join(SITE, "mill/index.html")))("a cut t
       await until("slot.toml", "job");
       await page.selectOption("#speed", "0.1");
       await page.click("#begin");
-      await until("chatters at 898 Hz", "chatter-verdict");
+      await until("chatters at 969 Hz", "chatter-verdict");
       expect(Number(await page.textContent("#chatter-number"))).toBeCloseTo(1.139, 2);
       expect(await page.inputValue("#colouring")).toBe("chatter");
       await until("near the limit", "legend-marks");
