@@ -87,11 +87,13 @@ struct Limits {
                 {1, 1e6},
                 "`rapid_mm_per_min`",
                 "A metre in 17 hours to a kilometre a minute."};
-    Limit acceleration{"acceleration",
-                       "mm/s2",
-                       {1, 1e7},
-                       "`acceleration_mm_per_s2`",
-                       "From far below the slowest machine to a thousand times gravity."};
+    Limit acceleration{
+        "acceleration",
+        "mm/s2",
+        {1, 1e7},
+        "`acceleration_mm_per_s2`",
+        "From far below the slowest machine to a thousand times gravity. 0 is read: feeds are reached "
+        "at once."};
 
     // The tool.
     Limit tool_number{"tool number",

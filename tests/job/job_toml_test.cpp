@@ -181,6 +181,20 @@ axes = [{ word = "A", pivot_mm = [0,20,10], limits_deg = [-90, 45] }, { word = "
     EXPECT_EQ(machine.tool_length_mm.value(), 80);
 }
 
+TEST(JobFile, may_say_that_there_is_no_limit_of_acceleration) {
+    for (const std::string zero : {"0", "0.0"}) {
+        const Job job = job_of(std::string(kBowl) + "[machine]\nacceleration_mm_per_s2 = " + zero + "\n");
+        EXPECT_EQ(job.machine.acceleration_mm_per_s2, 0);
+    }
+    for (const std::string refused : {"0.5", "-1"}) {
+        const FileResult<Job> job =
+            parse_job(std::string(kBowl) + "[machine]\nacceleration_mm_per_s2 = " + refused + "\n",
+                      "jobs/bowl.toml", MemorySource());
+        ASSERT_FALSE(job);
+        EXPECT_NE(job.error().text().find("1 to 10000000"), std::string::npos) << job.error().text();
+    }
+}
+
 TEST(JobFile, may_have_a_byte_order_mark_and_line_ends_of_any_system) {
     std::string text = "\xEF\xBB\xBF";
     for (const char* c = kBowl; *c != 0; ++c) text += *c == '\n' ? std::string("\r\n") : std::string(1, *c);

@@ -114,7 +114,7 @@ JobMachine read_table(TomlFile& file, const toml::table& table, const std::strin
     result.rapid_mm_per_min =
         section.number("rapid_mm_per_min", kLimits.rapid).value_or(result.rapid_mm_per_min);
     result.acceleration_mm_per_s2 =
-        section.number("acceleration_mm_per_s2", kLimits.acceleration).value_or(0);
+        section.number_or_zero("acceleration_mm_per_s2", kLimits.acceleration).value_or(0);
     if (const auto named = section.text("based_on")) {
         if (!base.empty() && base != *named) {
             section.fail("based_on",

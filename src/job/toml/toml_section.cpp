@@ -111,6 +111,12 @@ std::optional<double> TomlSection::number(std::string_view key, const Limit& lim
     return node ? number_of(key, *node, limit) : std::nullopt;
 }
 
+std::optional<double> TomlSection::number_or_zero(std::string_view key, const Limit& limit) {
+    const toml::node* node = table_.get(key);
+    if (node && node->is_number() && *node->value<double>() == 0) return 0.0;
+    return number(key, limit);
+}
+
 std::optional<int> TomlSection::integer(std::string_view key, const Limit& limit) {
     const std::optional<double> value = number(key, limit);
     if (!value) return {};

@@ -76,6 +76,8 @@ class TomlSection {
     bool has(std::string_view key) const { return table_.contains(key); }
     bool has_text(std::string_view key) const { return table_[key].is_string(); }
     std::optional<double> number(std::string_view key, const Limit& limit);
+    // The same; 0 is accepted beside the range.
+    std::optional<double> number_or_zero(std::string_view key, const Limit& limit);
     std::optional<int> integer(std::string_view key, const Limit& limit);
     std::optional<bool> flag(std::string_view key);
     std::optional<std::string> text(std::string_view key);
