@@ -52,22 +52,21 @@ class Comparison {
   private:
     void measure_all(const ParallelFor& parallel) {
         const std::vector<SurfaceSample> samples = designed_.sample(report_.spacing_mm);
-        std::vector<double> heights(samples.size());
+        std::vector<std::optional<NearestHeight::Height>> heights(samples.size());
         parallel((samples.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
             const std::size_t end = std::min(samples.size(), (chunk + 1) * kChunk);
-            for (std::size_t i = chunk * kChunk; i < end; ++i) {
-                heights[i] = height_.at(samples[i].point_mm, samples[i].normal, samples[i].triangle)
-                                 .value_or(std::numeric_limits<double>::quiet_NaN());
-            }
+            for (std::size_t i = chunk * kChunk; i < end; ++i)
+                heights[i] = height_.with_way(samples[i].point_mm, samples[i].normal, samples[i].triangle);
         });
         for (std::size_t i = 0; i < samples.size(); ++i) {
-            if (std::isnan(heights[i])) {
+            if (!heights[i]) {
                 report_.unmeasured_mm2 += samples[i].area_mm2;
                 continue;
             }
             report_.measured_mm2 += samples[i].area_mm2;
             report_.samples.push_back(samples[i]);
-            report_.heights_mm.push_back(static_cast<float>(heights[i]));
+            report_.heights_mm.push_back(static_cast<float>(heights[i]->mm));
+            ways_mm_.push_back(static_cast<float>(heights[i]->way_mm));
         }
     }
 
@@ -94,7 +93,7 @@ class Comparison {
             sum += h * area;
             squares += h * h * area;
             (h > 0 ? report_.rest_mm3 : report_.gouge_mm3) += std::abs(h) * area;
-            if (h <= options_.touch_mm) touched += area;
+            if (static_cast<double>(ways_mm_[i]) <= options_.touch_mm) touched += area;
         }
         report_.mean_mm = sum / report_.measured_mm2;
         report_.rms_mm = std::sqrt(squares / report_.measured_mm2);
@@ -147,8 +146,7 @@ class Comparison {
 
     // Returns the highest samples on crests between passes.
     std::vector<std::size_t> scallops(const ParallelFor& parallel) {
-        const TouchedSamples touched(report_.samples, report_.heights_mm, options_.touch_mm,
-                                     options_.pass_width_mm);
+        const TouchedSamples touched(report_.samples, ways_mm_, options_.touch_mm, options_.pass_width_mm);
         std::vector<std::size_t> order, found;
         for (std::size_t i = 0; i < report_.samples.size(); ++i) {
             if (height_of(i) > kFlatScallop) order.push_back(i);
@@ -270,6 +268,9 @@ class Comparison {
     const DeviationOptions& options_;
     NearestHeight height_;
     DeviationReport report_;
+    // One per sample of the report, along its normal. In a corner of the design the nearest point is soon on
+    // the other face, and heights go to 0 where no pass was.
+    std::vector<float> ways_mm_;
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ struct DeviationOptions {
     // Distance between samples, mm; 0: as fine as kMaxSamples allows. Extremes are refined from the samples.
     // The spacing therefore decides which cusps are found, not how accurately they are measured.
     double spacing_mm = 0;
-    // A sample at most this high was touched by a pass, mm: the tolerance of the program.
+    // A sample at most this high along its normal was touched by a pass, mm: the tolerance of the program.
     double touch_mm = 0.01;
     // Passes farther apart than this, mm, leave no scallop between them but unreached material: the diameter
     // of the largest cutter.

@@ -36,17 +36,29 @@ std::optional<NearestHeight::Way> NearestHeight::way(Vec3 point, Vec3 normal) co
 }
 
 std::optional<double> NearestHeight::at(Vec3 point, Vec3 normal, std::uint32_t triangle) const {
+    const auto found = with_way(point, normal, triangle);
+    return found ? std::optional(found->mm) : std::nullopt;
+}
+
+std::optional<NearestHeight::Height> NearestHeight::with_way(Vec3 point, Vec3 normal,
+                                                             std::uint32_t triangle) const {
     const auto found = way(point, normal);
     if (!found) return std::nullopt;
-    const double side = found->mm < 0 ? -1 : 1;
-    double radius = std::abs(found->mm), farthest = 0;
-    if (radius <= kNoDoubt) return found->mm;
+    const auto mm = height(*found, point, normal, triangle);
+    return mm ? std::optional(Height{*mm, found->mm}) : std::nullopt;
+}
+
+std::optional<double> NearestHeight::height(const Way& found, Vec3 point, Vec3 normal,
+                                            std::uint32_t triangle) const {
+    const double side = found.mm < 0 ? -1 : 1;
+    double radius = std::abs(found.mm), farthest = 0;
+    if (radius <= kNoDoubt) return found.mm;
     for (int n = 0; n < kMostBalls; ++n) {
         const Vec3 centre = point + side * radius * normal;
         const field::MeshPoint near = designed_.closest(centre, triangle);
         const double off = side * near.distance_mm;  // negative: beyond another face of the design
         if (off >= kOwn * radius) {
-            if (n == 0 && found->is_open) return std::nullopt;
+            if (n == 0 && found.is_open) return std::nullopt;
             return side * std::max(off, farthest);
         }
         if (!near.on_border) farthest = std::max(farthest, off);

@@ -33,12 +33,19 @@ class NearestHeight {
     // Cost: height_over, and one or a few closest points of the design if the height is over 0.1 um.
     std::optional<double> at(Vec3 point_mm, Vec3 normal, std::uint32_t triangle) const;
 
+    // The same with the length of the way, signed; limit_mm where no border was found.
+    struct Height {
+        double mm = 0, way_mm = 0;
+    };
+    std::optional<Height> with_way(Vec3 point_mm, Vec3 normal, std::uint32_t triangle) const;
+
   private:
     struct Way {
         double mm;     // signed
         bool is_open;  // no border was found
     };
     std::optional<Way> way(Vec3 point_mm, Vec3 normal) const;
+    std::optional<double> height(const Way& found, Vec3 point_mm, Vec3 normal, std::uint32_t triangle) const;
 
     const contact::DistanceField& machined_;
     const DesignedSurface& designed_;

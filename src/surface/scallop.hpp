@@ -21,7 +21,7 @@ struct Crossing {
 // pass width. Any thread may query.
 class TouchedSamples {
   public:
-    // One height for each sample. Samples up to touch_mm high count as touched.
+    // One height for each sample, along its normal. Samples up to touch_mm high count as touched.
     TouchedSamples(std::span<const SurfaceSample> samples, std::span<const float> heights_mm, double touch_mm,
                    double pass_width_mm);
 

@@ -99,6 +99,27 @@ TEST(Deviation, strips_of_the_blank_between_passes_are_no_scallops) {
     EXPECT_EQ(report.scallop.mm, 0);
 }
 
+TEST(Deviation, a_corner_that_no_pass_can_reach_is_rest_but_no_scallop) {
+    // Two walls that meet at a right angle, and the round that a cutter leaves between them.
+    struct Round : contact::DistanceField {
+        double distance_mm(Vec3 p) const override {
+            return kRadius - length(Vec3{std::max(kRadius - p.x, 0.0), std::max(kRadius - p.y, 0.0), 0});
+        }
+        Vec3 normal(Vec3) const override { return {0, 0, 1}; }
+    } field;
+    TriangleMesh walls;
+    walls.positions = {{0, 0, 0}, {10, 0, 0}, {10, 0, 5}, {0, 0, 5}, {0, 10, 0}, {0, 10, 5}};
+    walls.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 5, 3}, {0, 4, 5}};
+    for (const double spacing : {0.01, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5}) {
+        const auto report = compare(field, surface_of(walls), {.spacing_mm = spacing});
+        EXPECT_NEAR(report.rest.mm, kRadius * (1 - std::sqrt(0.5)), 1e-4) << spacing;
+        EXPECT_EQ(report.scallop.mm, 0) << spacing;
+        // The walls, and where the round is at most 0.01 mm high.
+        const double low = std::sqrt(2 * kRadius * 0.01 - 1e-4);
+        EXPECT_NEAR(report.touched_share, (10 - kRadius + low) / 10, 0.03) << spacing;
+    }
+}
+
 TEST(Deviation, a_pass_set_too_deep_gouges_by_as_much) {
     auto passes = row(5, kSidestep, 8);
     passes[3].bottom = -0.2;
