@@ -9,6 +9,9 @@ namespace {
 
 // A trace is a chord of its path: a point this near belongs to its surface.
 constexpr double kOnSurfaceMm = 0.02;
+// A trace that stands so far out of the material was cut away. Of those that stay most are off by less than a
+// hundredth of that; only between short moves of very unequal lengths one side may cut into the other.
+constexpr double kCutAwayMm = 1e-3;
 // Of its length, by which the end of a trace goes on where no other one continues it.
 constexpr double kBeyond = 0.25, kBeyondWeight = 1e-6;
 constexpr int kMostLooked = 32;  // traces of a cell
@@ -49,8 +52,9 @@ void FormError::keep(ToothTraces all, const contact::DistanceField& machined, co
     parallel((count + kSamplesAtOnce - 1) / kSamplesAtOnce, [&](std::size_t chunk) {
         for (std::size_t n = chunk * kSamplesAtOnce; n < std::min(count, (chunk + 1) * kSamplesAtOnce); ++n) {
             const ToothTrace& t = all.traces[n];
-            const double off = machined.distance_mm(0.5 * (t.from_mm + t.to_mm));
-            stays[n] = t.count > 0 && std::abs(off) <= kOnSurfaceMm;
+            const double off = machined.distance_mm(t.inner_mm);
+            // In material where the grid missed the cut of this row.
+            stays[n] = t.count > 0 && off <= kCutAwayMm && off >= -kOnSurfaceMm;
         }
     });
     std::vector<std::uint32_t> place(count);

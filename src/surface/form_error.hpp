@@ -30,7 +30,8 @@ struct ToothMark {
 // The marks that the teeth make at one height of the edge, along a piece of the path.
 struct ToothTrace {
     Vec3 from_mm, to_mm;  // on the surface of a stiff tool
-    Vec3 normal;          // unit, out of the material
+    Vec3 inner_mm;  // also there, between them and far from corners; beside the chord where the path bends
+    Vec3 normal;    // unit, out of the material
     double arc_mm = 1;    // radius of the arc that a tooth cuts along the trace
     double width_mm = 0;  // of the surface across the trace for which it stands
     double start_s = 0, end_s = 0;

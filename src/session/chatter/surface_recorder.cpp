@@ -40,7 +40,7 @@ SurfaceRecorder::SurfaceRecorder(const MillSetup& setup) : setup_(setup), schedu
 }
 
 double SurfaceRecorder::estimated_bytes(const MillSetup& setup) {
-    constexpr double kMarkBytes = 60, kMarksPerTooth = 4;
+    constexpr double kMarkBytes = 65, kMarksPerTooth = 4;
     double teeth = 0;
     for (std::size_t n = 0; n < setup.moves.size(); ++n) {
         if (setup.moves[n].kind != motion::MoveKind::feed) continue;
@@ -65,6 +65,21 @@ SurfaceRecorder::Place SurfaceRecorder::place(const milling::CutRow& row, double
     return {here.tip_mm, milling::tool_frame(here.axis, way, row.pose.frame.x)};
 }
 
+// Where short moves share the row, their corners cut into each other: the middle of the longest one.
+double SurfaceRecorder::inner_s(const milling::CutRow& row) const {
+    double middle_s = 0.5 * (row.start_s + row.end_s), longest_s = 0;
+    const std::vector<motion::MoveTiming>& moves = schedule_->moves;
+    for (std::size_t n = schedule_->move_at(row.start_s); n < moves.size(); ++n) {
+        const double from_s = std::max(row.start_s, moves[n].start_s),
+                     to_s = std::min(row.end_s, moves[n].end_s);
+        if (moves[n].start_s >= row.end_s) break;
+        if (to_s - from_s <= longest_s) continue;
+        longest_s = to_s - from_s;
+        middle_s = 0.5 * (from_s + to_s);
+    }
+    return middle_s;
+}
+
 void SurfaceRecorder::begin(const milling::CutRow& row, std::span<const milling::EngagementBand> bands,
                             const milling::ToolFrame& frame, double rotation_rad, double t_s) {
     count_ = 0;
@@ -77,8 +92,9 @@ void SurfaceRecorder::begin(const milling::CutRow& row, std::span<const milling:
     feed_rad_ = math::atan2(dot(row.pose.frame.x, frame.y), dot(row.pose.frame.x, frame.x));
     row_rad_ = row.spindle_rad_per_s() * row.duration_s();
     begin_rad_ = rotation_rad - row.spindle_rad_per_s() * (t_s - row.start_s);
-    const std::array<Place, 2> ends{place(row, row.start_s), place(row, row.end_s)};
-    for (const milling::EngagementBand& band : bands) watch(row, band, ends);
+    const std::array<Place, 3> places{place(row, row.start_s), place(row, inner_s(row)),
+                                      place(row, row.end_s)};
+    for (const milling::EngagementBand& band : bands) watch(row, band, places);
     next_rad_ = std::numeric_limits<double>::max();
     // The samples that wait for their successors belong to this row too.
     const double after = samples_ == 4 ? last_[2].rotation_rad : rotation_rad;
@@ -90,7 +106,7 @@ void SurfaceRecorder::begin(const milling::CutRow& row, std::span<const milling:
 
 // Adds a watch for each height of a band that makes a surface.
 void SurfaceRecorder::watch(const milling::CutRow& row, const milling::EngagementBand& band,
-                            std::array<Place, 2> ends) {
+                            const std::array<Place, 3>& places) {
     const milling::Cutter& cutter = setup_.cutters[row.cutter];
     const milling::CutterProfile profile(cutter);
     const double from = profile.at_height(band.z0_mm), size = profile.at_height(band.z1_mm) - from;
@@ -124,8 +140,9 @@ void SurfaceRecorder::watch(const milling::CutRow& row, const milling::Engagemen
             return p.tip_mm + p.frame.in_stock({at.radius_mm * sine, at.radius_mm * cosine, at.height_mm});
         };
         w.trace = {};
-        w.trace.from_mm = on_surface(ends[0]);
-        w.trace.to_mm = on_surface(ends[1]);
+        w.trace.from_mm = on_surface(places[0]);
+        w.trace.inner_mm = on_surface(places[1]);
+        w.trace.to_mm = on_surface(places[2]);
         w.trace.normal =
             -row.pose.frame.in_stock({at.sin_kappa * sine, at.sin_kappa * cosine, -at.cos_kappa});
         w.trace.arc_mm = at.radius_mm / std::max(at.sin_kappa, 1e-6);

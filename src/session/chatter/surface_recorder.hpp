@@ -42,7 +42,7 @@ class SurfaceRecorder {
     void add_steady(const milling::CutRow& row, double period_rad, const Displacement& displacement_mm);
 
     static constexpr std::size_t kMostMarks = 4'000'000;
-    // Of a run of that setup, whose schedule is there: about 60 bytes a mark, with its trace, and four marks
+    // Of a run of that setup, whose schedule is there: about 65 bytes a mark, with its trace, and four marks
     // for each tooth that passes in a feed move.
     static double estimated_bytes(const MillSetup& setup);
     // The line of the program from which on nothing is recorded: there are kMostMarks.
@@ -75,7 +75,10 @@ class SurfaceRecorder {
     };
 
     Place place(const milling::CutRow& row, double t_s) const;
-    void watch(const milling::CutRow& row, const milling::EngagementBand& band, std::array<Place, 2> ends);
+    double inner_s(const milling::CutRow& row) const;
+    // `places`: at the begin, within, and at the end of the row.
+    void watch(const milling::CutRow& row, const milling::EngagementBand& band,
+               const std::array<Place, 3>& places);
     void find_next(Watch& watch, double after_rad) const;
     Vec3 displacement_at(double rotation_rad) const;
     void mark(Watch& watch, Vec3 displacement_mm);

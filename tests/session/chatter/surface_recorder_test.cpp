@@ -265,5 +265,41 @@ TEST(SurfaceRecorder, misses_no_tooth_between_rows) {
     }
 }
 
+// A row of three short moves about a corner of a wall on the left: by its own feed each move stands a radius
+// off the wall, and near the corners the next one cuts deeper.
+TEST(SurfaceRecorder, knows_a_place_of_its_wall_that_other_moves_of_the_row_do_not_cut) {
+    Wall w;
+    w.modes = {{{0, 1, 0}, 922, 0.03, 6000}};
+    w.exit_rad = 1.2;
+    MillSetup setup = setup_of(w);
+    const motion::Move whole = setup.moves[0];
+    setup.moves.clear();
+    Vec3 at = whole.start.tip_mm;
+    const double turn_rad = 0.04;
+    for (const auto& [turns, length_mm] : {std::pair{0, 0.05}, {1, 0.3}, {2, 0.13}}) {
+        motion::Move move = whole;
+        move.start.tip_mm = at;
+        at += length_mm * Vec3{std::cos(turns * turn_rad), std::sin(turns * turn_rad), 0};
+        move.end.tip_mm = at;
+        setup.moves.push_back(move);
+    }
+    setup.cutter_of_move = {0, 0, 0};
+    setup.rpm_of_move = {w.rpm, w.rpm, w.rpm};
+    setup.schedule = nullptr;
+    setup.schedule = schedule_of(setup);
+    SurfaceRecorder recorder(setup);
+    RowSimulation simulation(setup, false, &recorder);
+    (void)simulation.run(row_of(w, setup, 0, setup.schedule->duration_s));
+    const surface::ToothTraces all = recorder.take();
+    ASSERT_FALSE(all.traces.empty());
+    const motion::Move& longest = setup.moves[1];
+    const Vec3 middle = 0.5 * (longest.start.tip_mm + longest.end.tip_mm);
+    const Vec3 left{-std::sin(turn_rad), std::cos(turn_rad), 0};
+    for (const surface::ToothTrace& t : all.traces) {
+        const Vec3 off = t.inner_mm - (middle + 5 * left);
+        EXPECT_NEAR(std::hypot(off.x, off.y), 0, 1e-9);
+    }
+}
+
 }  // namespace
 }  // namespace tribo::session

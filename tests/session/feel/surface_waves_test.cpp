@@ -18,6 +18,7 @@ surface::FormError error_of(Value&& left_mm) {
         surface::ToothTrace t;
         t.from_mm = {0.5 * row, 0, 0};
         t.to_mm = {0.5 * row + 0.5, 0, 0};
+        t.inner_mm = {0.5 * row + 0.25, 0, 0};
         t.normal = {0, -1, 0};
         t.arc_mm = 1e-3;  // sharp teeth: the marks stay as they are
         t.width_mm = 1;
