@@ -42,6 +42,8 @@ class ContactScout {
     void set_windows(const CutPose& pose);
     void drop_emptied_cells(const field::CarvedView& stock, const CutPose& pose);
     void search(const field::CarvedView& stock, const CutPose& pose, Patch patch);
+    bool meets_at_end(const field::CarvedView& stock, const CutPose& pose, int row) const;
+    int parts_of(double radius_mm) const;
     bool meets(const field::CarvedView& stock, const AxisCircle& circle, int column, double clear_mm) const;
     double middle(int row) const {
         const auto n = static_cast<std::size_t>(row);
@@ -52,7 +54,9 @@ class ContactScout {
     double radius_mm_, length_mm_;
     std::vector<double> borders_;         // of the rows, one more than these
     std::vector<std::uint64_t> windows_;  // by row: the columns that move outward
+    std::vector<TurnWindow> ends_;        // by row
     std::vector<char> engaged_;           // by row
+    double widest_part_mm_ = 0;           // of a column
     double front_ = 0;                    // the column in the middle of the last window
 };
 

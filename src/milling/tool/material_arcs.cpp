@@ -12,8 +12,8 @@ namespace {
 // Narrower slits and slivers are rounding, left where surfaces meet or touch.
 constexpr double kSliver = 5e-4;  // mm
 constexpr double kSliverRad = 2e-3;
-// Farther apart, even places would miss a narrow blank in front of a face mill.
-constexpr double kWidestPlaceMm = 1;
+// Farther apart, in mm and in cells, even places would miss a rib or a narrow blank.
+constexpr double kWidestPlaceMm = 1, kWidestPlaceCells = 1;
 
 struct Direction {
     double sine, cosine;
@@ -36,11 +36,10 @@ class Scan {
          std::vector<MaterialArc>& arcs)
         : stock_(stock), circle_(circle), from_(from), to_(to), arcs_(arcs), before_(arcs.size()) {
         // On a small circle only every stride-th place is tested: as many as stand about a cell apart.
-        constexpr double kApartCells = 1;
         constexpr int kMostStride = 8;
-        const double apart = kApartCells * stock.field().cell_mm();
+        const double apart = std::min(kWidestPlaceMm, kWidestPlaceCells * stock.field().cell_mm());
         while (stride_ < kMostStride && 2 * stride_ * kPlaceRad * circle.radius_mm <= apart) stride_ *= 2;
-        while (kPlaceRad * circle.radius_mm > parts_ * kWidestPlaceMm) parts_ *= 2;
+        while (kPlaceRad * circle.radius_mm > parts_ * apart) parts_ *= 2;
         step_ = stride_ * kPlaceRad / parts_;
         first_ = static_cast<int>(std::floor(from / step_)) + 1;
         const int last = static_cast<int>(std::ceil(to / step_)) - 1;

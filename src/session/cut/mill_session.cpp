@@ -216,6 +216,22 @@ class MillSession::Run {
         carved_moves_ = next_move_;
     }
 
+    // What one pass removes and its rows do not show. The rounding of the grid is left out.
+    void find_unseen(std::size_t step, std::size_t last_step, std::span<const milling::CutRow> rows) {
+        constexpr double kMuch = 0.1, kRoughCells = 100;
+        double lost = 0, shown = 0;
+        for (std::size_t n = step; n < last_step; ++n) {
+            if (steps_[n].move->kind == motion::MoveKind::feed) lost += machined_.removed_mm3[n];
+        }
+        for (const milling::CutRow& row : rows) shown += row.removed_mm3;
+        const double unseen = lost - shown, cell = stock_.cell_mm();
+        if (unseen < kMuch * lost || unseen < kRoughCells * cell * cell * cell) return;
+        totals_.unseen_mm3 += unseen;
+        if (unseen <= totals_.most_unseen_mm3) return;
+        totals_.most_unseen_mm3 = unseen;
+        totals_.unseen_line = steps_[step].move->line;
+    }
+
     // Finishes the steps of one pass and its machined rows, in the order of time.
     void finish_pass(std::size_t step, std::size_t last_step, std::size_t first, std::size_t last) {
         const std::size_t move = next_move_ + step;
@@ -233,6 +249,7 @@ class MillSession::Run {
             if (totals_.edgeless_mm3 == 0) totals_.edgeless_line = steps_[n].move->line;
             totals_.edgeless_mm3 += machined_.removed_mm3[n];
         }
+        find_unseen(step, last_step, rows);
         std::size_t at = step;  // step of the current row
         double begun_mm = 0, travelled = 0, row_start = start;
         for (std::size_t n = first; n < last; ++n) {

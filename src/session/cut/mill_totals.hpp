@@ -56,6 +56,10 @@ struct MillTotals : ForceTotals {
     // the stock; and the first line.
     double edgeless_mm3 = 0;
     int edgeless_line = 0;
+    // Removed by passes at feed whose rows show much less than they remove, as at a rib that is thinner than
+    // a cell; and the line of most of it.
+    double unseen_mm3 = 0, most_unseen_mm3 = 0;
+    int unseen_line = 0;
     // What cores moved into, where a cutter has no edges (CutRow::core_mm3); and the line of most of it.
     double core_mm3 = 0, most_core_mm3 = 0;
     int core_line = 0;

@@ -14,6 +14,8 @@ constexpr double kBalanced = 0.01;
 constexpr double kMostOfIt = 0.8;
 // Every cut begins and ends with thin chips. Rubbing gives a warning from this share of the cutting time on.
 constexpr double kRubbingShare = 0.1;
+// Less of what is removed is not worth a warning.
+constexpr double kLittle = 1e-4;
 // Less is the rounding of a tool that just touches.
 constexpr double kStoodInMm3 = 0.1;
 
@@ -46,7 +48,8 @@ Warnings warnings_of(const MillTotals& totals, const std::string& job, const std
                                 " mm3 that the tool stands in are taken as gone, without a force; add an "
                                 "approach, or give a stock that leaves room for the tool"});
     }
-    if (totals.energy_balance && std::abs(*totals.energy_balance - 1) > kBalanced) {
+    const bool is_unbalanced = totals.energy_balance && std::abs(*totals.energy_balance - 1) > kBalanced;
+    if (is_unbalanced) {
         const std::string share = "the spindle's work is " + rounded(*totals.energy_balance, 1000) +
                                   " of what the metal removed asks for: ";
         const double missing_mm3 = (1 - *totals.energy_balance) * totals.fed_mm3;
@@ -66,6 +69,15 @@ Warnings warnings_of(const MillTotals& totals, const std::string& job, const std
             warnings.push_back(
                 {job, 0, share + "the force is off by about as much; try a finer --resolution"});
         }
+    }
+    const bool is_told = totals.edgeless_mm3 > kMostOfIt * totals.unseen_mm3 && is_unbalanced;
+    if (totals.unseen_mm3 > kLittle * totals.fed_mm3 && !is_told) {
+        warnings.push_back({program, totals.unseen_line,
+                            rounded(totals.unseen_mm3, 10) +
+                                " mm3 are removed without the force of it, most of it here: the contact is "
+                                "narrower than a cell of the grid, as at a thin rib, or no edge cuts, as "
+                                "where a shank is pulled through the stock; try a finer --resolution, and "
+                                "give the true length of the edges"});
     }
     const milling::ChipFindings& chips = totals.chips;
     if (chips.rubbing_s > kRubbingShare * totals.cutting_s) {
