@@ -7,6 +7,7 @@
 #include <complex>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/math.hpp"
@@ -44,7 +45,7 @@ double chatter_line_hz(const PeriodStep& step, const Eigenpair& vibration, doubl
         line.most = std::sqrt(sum_of_squares(line.compliance));
         lines.push_back(line);
     }
-    std::ranges::stable_sort(lines, std::ranges::greater{}, &Line::most);
+    std::ranges::sort(lines, {}, [](const Line& line) { return std::pair(-line.most, line.waves); });
     std::vector<PeriodStep::Impulse> impulses;
     if (multiplier2 > 0) impulses = step.impulses(vibration.vector, vibration.value);
     // e^(-s_0 t) of each; its size is a bound of the force of all lines.
