@@ -300,9 +300,15 @@ void Machining::divide_rows_at_turns(Machined& out) {
         double from = whole.from;
         bool is_divided = false, cuts = false;
         for (; turn != turns_.end() && turn->step == whole.step && turn->after <= whole.to; ++turn) {
+            is_divided = true;
+            // A part before contact that is no longer than the turn is known to belongs to the contact.
+            constexpr double kShort = 3;
+            if (turn->into && turn->after - from < kShort * (turn->after - turn->before)) {
+                cuts = true;
+                continue;
+            }
             add(from, turn->after, !turn->into);
             from = turn->after;
-            is_divided = true;
             cuts = turn->into;
         }
         if (is_divided) {
