@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Contacts that are narrow beside the cutter: a rib, and a skim of a wall. A straight tooth is in both with
 // its whole height at once, so that the torque has a closed form.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include "session/block_setup.hpp"
 #include "session/cut/mill_session.hpp"
+#include "session/cut/mill_warnings.hpp"
 
 namespace tribo::session {
 namespace {
@@ -100,7 +102,13 @@ TEST(ThinContact, that_the_rows_miss_is_told) {
     setup.moves.back().line = 7;
     MillSession session(std::move(setup), serial_for);
     session.run({});
-    EXPECT_GE(session.totals().chip_mm3 + session.totals().unseen_mm3, 0.8 * session.totals().fed_mm3);
+    const MillTotals& totals = session.totals();
+    EXPECT_EQ(totals.unseen_line, 7);
+    const Warnings warnings = warnings_of(totals, "a.toml", "a.nc");
+    EXPECT_TRUE(std::ranges::any_of(warnings, [](const Warning& w) {
+        return w.line == 7 && w.text.find("narrower than a cell of the grid") != std::string::npos;
+    }));
+    EXPECT_GE(totals.chip_mm3 + totals.unseen_mm3, 0.8 * totals.fed_mm3);
 }
 
 }  // namespace

@@ -20,9 +20,11 @@ struct MeridianStretch {
 };
 
 // Divides a part of the envelope into rows along the meridian (finer towards its ends) and 64 columns around
-// the axis. A cell is engaged if its middle lies in material and moves outward. Where no border can be near,
-// whole patches of cells are decided at once, so that few cells are looked at. The result depends on the
-// material alone. Keeps scratch space: one thread at a time; no allocation after the first calls.
+// the axis. A cell is engaged if it moves outward and lies in material at one of some places, at most 2 mm
+// and one cell of the grid apart; where nothing else meets, also at the ends of what moves outward. Where no
+// border can be near, whole patches of cells are decided at once, so that few cells are looked at. The result
+// depends on the material alone. Keeps scratch space: one thread at a time; no allocation after the first
+// calls.
 class ContactScout {
   public:
     explicit ContactScout(const Cutter& cutter);

@@ -35,10 +35,10 @@ struct MaterialArc {
 };
 
 // Appends the arcs of `circle` between the rotations `from` and `to` that lie in material, in order. The
-// circle is tested at kTurnPlaces, at most 1 mm apart, and at both ends, except where no border can lie. A
-// rib thinner than the distance between two places may be missed. Borders are accurate to about 1e-7 rad. The
-// result depends on the material alone, not on the storage of the stock. No allocation while `arcs` has
-// capacity.
+// circle is tested at kTurnPlaces or more, at most 1 mm and one cell apart, and at both ends, except where no
+// border can lie. A rib thinner than the distance between two places may be missed. Borders are accurate to
+// about 1e-7 rad. The result depends on the material alone, not on the storage of the stock. No allocation
+// while `arcs` has capacity.
 void material_arcs(const field::CarvedView& stock, const AxisCircle& circle, double from, double to,
                    std::vector<MaterialArc>& arcs);
 

@@ -57,7 +57,9 @@ Warnings warnings_of(const MillTotals& totals, const std::string& job, const std
             warnings.push_back({program, totals.edgeless_line,
                                 share + "no edge cuts " + rounded(totals.edgeless_mm3, 1) +
                                     " mm3 of it, first here, as when a tool is pulled back with its shank "
-                                    "in the stock; give the true length of its edges"});
+                                    "in the stock; give the true length of its edges. Or the contact is "
+                                    "narrower than a cell of the grid, as at a thin rib; try a finer "
+                                    "--resolution"});
         } else if (totals.core_mm3 > kMostOfIt * missing_mm3 && missing_mm3 > 0) {
             warnings.push_back(
                 {program, totals.core_line,
